@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+/// @file
+/// The commands, one file each. A command adds its subcommand to the application and, as the
+/// subcommand's callback, runs itself through `run_reporting` and leaves the exit code.
+
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace regain::tools {
+
+// Add each command here and in main.cpp, in the order in which --help should list them.
+
+}  // namespace regain::tools

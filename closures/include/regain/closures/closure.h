@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+/// @file
+/// What a closure answers. Every closure is a value type with
+///
+///     prepare(wo)          what depends on wo alone; once per shading point
+///       .eval(wi)          f(wo, wi) |cos theta_i| per channel; 0 where the pair is impossible
+///       .sample(u)         a Sample
+///       .pdf(wi)           per steradian, over all that sample can return; integrates to
+///                          1 - P(nothing)
+///       .albedo()          an Albedo, for wo
+///     eval(wo, wi) ...     shorthands for prepare(wo).eval(wi) ...
+///     traits()             a Traits
+///
+/// wo and wi are unit vectors in the local shading frame and point away from the surface. A wo that
+/// is no unit vector, or lies below the horizon of a closure that only reflects, gets black, a pdf
+/// of 0 and no samples; so does such a wi.
+
+#pragma once
+
+#include <regain/closures/vector.h>
+
+REGAIN_NAMESPACE_BEGIN
+
+/// One sampled direction, or nothing.
+template <class Real>
+struct Sample
+{
+    using Mask = MaskOf<Real>;
+
+    Vec3<Real> wi;             ///< unit; (0, 0, 1) when there is no sample
+    Color3<Real> weight;       ///< f |cos theta_i| / pdf; for a delta lobe the energy fraction
+    Real pdf;                  ///< per steradian; for a delta lobe its selection probability
+    Mask valid = Mask(false);  ///< false: nothing was sampled, weight and pdf are 0
+    Mask delta = Mask(false);  ///< the direction has no density: eval and pdf of it are 0
+    Mask transmitted = Mask(false);  ///< wi is on the other side of the surface
+};
+
+/// Directional albedo: the energy that leaves for a unit of energy that arrives along wo.
+template <class Real>
+struct Albedo
+{
+    Color3<Real> reflect, transmit;
+};
+
+/// What a closure promises. Tests prove or refute it.
+struct Traits
+{
+    bool reciprocal = false;         ///< f(wo, wi) = f(wi, wo); eta squared across an interface
+    bool energy_preserving = false;  ///< with F = 1 the albedo is 1
+    bool exact_pdf = false;          ///< pdf is the density of sample
+    bool stochastic_eval = false;    ///< eval draws random numbers and is right on average
+    bool delta = false;              ///< sample may return directions without density
+    bool transmissive = false;
+    bool anisotropic = false;  ///< rotating wo and wi about the normal changes the value
+    int random_numbers = 0;    ///< that sample takes
+};
+
+REGAIN_NAMESPACE_END

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+/// @file
+/// A lobe with a gain on its weight: a closure again. The lobe does not know it is compensated; its
+/// directions and pdfs stay bit for bit what they were.
+
+#pragma once
+
+#include <regain/closures/method_gain.h>
+
+REGAIN_NAMESPACE_BEGIN
+
+template <class LobeType, class GainType>
+class Compensated
+{
+public:
+    using Lobe = LobeType;
+    using Gain = GainType;
+    using Real = typename Lobe::Real;
+    using Color = Color3<Real>;
+    static constexpr bool depends_on_wi = detail::GainDependsOnWi<Gain>::value;
+
+    Compensated(const Lobe& lobe, const Gain& gain) : _lobe(lobe), _gain(gain) {}
+
+    const Lobe& lobe() const { return _lobe; }
+    const Gain& gain() const { return _gain; }
+
+    Traits traits() const
+    {
+        Traits t = _lobe.traits();
+        t.reciprocal = t.reciprocal && detail::GainIsReciprocal<Gain>::value;
+        t.energy_preserving = t.energy_preserving || detail::GainPreservesEnergy<Gain>::of(_gain);
+        return t;
+    }
+
+    class Prepared
+    {
+    public:
+        Prepared(const Compensated& closure, const Vec3<Real>& wo)
+            : _lobe(closure._lobe.prepare(wo)), _gain(closure._gain)
+        {
+            _lobe.scale_by(_gain.at(_lobe.wo()));
+        }
+
+        const Vec3<Real>& wo() const { return _lobe.wo(); }
+        void scale_by(const Color& weight) { _lobe.scale_by(weight); }
+
+        Color eval(const Vec3<Real>& wi) const
+        {
+            if constexpr (depends_on_wi)
+            {
+                const Vec3<Real> safe = detail::select(detail::is_direction(wi), wi, wo());
+                return _lobe.eval(wi) * _gain.pair(wo(), safe);
+            }
+            else
+                return _lobe.eval(wi);
+        }
+
+        Sample<Real> sample(const Vec2<Real>& u) const
+        {
+            Sample<Real> s = _lobe.sample(u);
+            if constexpr (depends_on_wi) s.weight *= _gain.pair(wo(), s.wi);
+            return s;
+        }
+
+        Real pdf(const Vec3<Real>& wi) const { return _lobe.pdf(wi); }
+
+        Albedo<Real> albedo() const
+        {
+            if constexpr (!depends_on_wi)
+                return _lobe.albedo();
+            else
+            {
+                // No table knows a gain that depends on wi.
+                constexpr int n = 24;
+                Albedo<Real> sum{Color(Real(0)), Color(Real(0))};
+                for (int j = 0; j < n; ++j)
+                    for (int i = 0; i < n; ++i)
+                    {
+                        const Sample<Real> s = sample({detail::constant<Real>((i + 0.5) / n),
+                                                       detail::constant<Real>((j + 0.5) / n)});
+                        const Color w = s.weight * detail::constant<Real>(1.0 / (n * n));
+                        sum.reflect += detail::select(s.transmitted, Color(Real(0)), w);
+                        sum.transmit += detail::select(s.transmitted, w, Color(Real(0)));
+                    }
+                return sum;
+            }
+        }
+
+    private:
+        typename Lobe::Prepared _lobe;
+        Gain _gain;
+    };
+
+    Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
+
+    Color eval(const Vec3<Real>& wo, const Vec3<Real>& wi) const { return prepare(wo).eval(wi); }
+    Sample<Real> sample(const Vec3<Real>& wo, const Vec2<Real>& u) const
+    {
+        return prepare(wo).sample(u);
+    }
+    // No gain enters a pdf, so none is looked up for it.
+    Real pdf(const Vec3<Real>& wo, const Vec3<Real>& wi) const { return _lobe.pdf(wo, wi); }
+    Albedo<Real> albedo(const Vec3<Real>& wo) const { return prepare(wo).albedo(); }
+
+private:
+    Lobe _lobe;
+    Gain _gain;
+};
+
+/// The lobe compensated by a method of method_gain.h at strength s in [0, 1]. The tables serve its
+/// gain and, unless the lobe has its own, its albedo.
+template <class Lobe>
+Compensated<Lobe, MethodGain<typename Lobe::Real>> compensated(
+    Lobe lobe, Method method, const MicrofacetTables& tables,
+    typename Lobe::Real strength = typename Lobe::Real(1))
+{
+    if (!lobe.tables().E_ss) lobe.set_tables(tables);
+    return {lobe, MethodGain<typename Lobe::Real>(lobe, method, tables, strength)};
+}
+
+/// The lobe with a gain hook of the caller's.
+template <class Lobe, class Gain>
+Compensated<Lobe, Gain> compensated(const Lobe& lobe, const Gain& gain)
+{
+    return {lobe, gain};
+}
+
+/// A gain taken at the other end. On a path that carries importance the eye is on the side of wi,
+/// and f(wo, wi) of a gain that is not reciprocal has to be what the eye's path would see: f(wi,
+/// wo).
+template <class Gain, class Real>
+class ReversedGain
+{
+public:
+    static constexpr bool depends_on_wi = true;
+
+    explicit ReversedGain(const Gain& gain) : _gain(gain) {}
+
+    Color3<Real> at(const Vec3<Real>&) const { return Color3<Real>(Real(1)); }
+    Color3<Real> pair(const Vec3<Real>& wo, const Vec3<Real>& wi) const
+    {
+        if constexpr (detail::GainDependsOnWi<Gain>::value)
+            return _gain.at(wi) * _gain.pair(wi, wo);
+        else
+            return (void)wo, _gain.at(wi);
+    }
+
+private:
+    Gain _gain;
+};
+
+/// f*(wo, wi) = f(wi, wo) of a compensated reciprocal lobe, with directions and pdfs still its own.
+template <class Lobe, class Gain>
+Compensated<Lobe, ReversedGain<Gain, typename Lobe::Real>> reversed(
+    const Compensated<Lobe, Gain>& closure)
+{
+    return {closure.lobe(), ReversedGain<Gain, typename Lobe::Real>(closure.gain())};
+}
+
+REGAIN_NAMESPACE_END

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+/// @file
+/// Fresnel reflectance of a conductor with complex index of refraction n + ik against a dielectric
+/// of index 1, unpolarised:  F = (R_s + R_p) / 2  (Born and Wolf, Principles of Optics, 14.2).
+///
+/// It is computed as 1 - F, from the absorptances of both polarisations,
+///     A_s = 2 t2 / (t1 + t2),  t1 = |e - s2| + mu^2,          t2 = 2 a mu
+///     q   = 2 t4 / (t3 + t4),  t3 = mu^2 |e - s2| + s2^2,     t4 = t2 s2,   R_p = R_s (1 - q)
+///     F   = 1 - (2 A_s + q - A_s q) / 2
+/// with e = (n + ik)^2, s2 = 1 - mu^2, a = Re sqrt(e - s2). The usual form subtracts nearly equal
+/// numbers and has, in float, errors of 13 per cent in 1 - F of metals with high k.
+///
+/// Interface as in constant_fresnel.h; n and k are no colours and need no colour management.
+
+#pragma once
+
+#include <regain/closures/vector.h>
+
+REGAIN_NAMESPACE_BEGIN
+
+template <class RealType>
+class ConductorFresnel
+{
+public:
+    using Real = RealType;
+    using Color = Color3<Real>;
+
+    /// n and k per channel, in [0, 1e4], clamped; NaN becomes n = 1 or k = 0.
+    ConductorFresnel(const Color& n, const Color& k)
+        : _n(detail::per_channel(n, [](Real v) { return detail::sanitised(v, 0, 1e4, 1); })),
+          _k(detail::per_channel(k, [](Real v) { return detail::sanitised(v, 0, 1e4, 0); }))
+    {}
+
+    Color at(Real mu) const
+    {
+        return {channel(_n.x, _k.x, mu), channel(_n.y, _k.y, mu), channel(_n.z, _k.z, mu)};
+    }
+
+    Color normal_incidence() const { return at(Real(1)); }
+
+    /// By Gauss-Jacobi quadrature of five nodes: within 3e-4 for n in [0.04, 5], k in [0.5, 10].
+    Color average() const
+    {
+        constexpr double mu[] = {0.098535085798826426, 0.304535726646363905, 0.562025189752613856,
+                                 0.801986582126391827, 0.960190142948531258};
+        constexpr double weight[] = {0.031495829043384552, 0.147817740145233341,
+                                     0.292773974169339617, 0.334349276188739131,
+                                     0.193563180453303359};
+        Color sum(Real(0));
+        for (int i = 0; i < 5; ++i)
+            sum += at(detail::constant<Real>(mu[i])) * detail::constant<Real>(weight[i]);
+        return sum;
+    }
+
+private:
+    static Real channel(Real n, Real k, Real mu)
+    {
+        // Keeps 0 / 0 out where n = 0, and where n = 1, k = 0 meets grazing incidence.
+        const Real tiny = detail::constant<Real>(1e-30);
+
+        const Real mu2 = mu * mu, s2 = detail::max(Real(1) - mu2, Real(0));
+        const Real nk = n * k, t0 = (n - k) * (n + k) - s2;
+        const Real modulus = detail::sqrt(t0 * t0 + Real(4) * nk * nk);
+        const Real root = detail::sqrt(Real(0.5f) * (modulus + detail::abs(t0)));
+        const Real a = detail::select(t0 >= Real(0), root, nk / detail::max(root, tiny));
+
+        const Real t1 = modulus + mu2, t2 = Real(2) * a * mu;
+        const Real t3 = mu2 * modulus + s2 * s2, t4 = t2 * s2;
+        const Real A_s = Real(2) * t2 / detail::max(t1 + t2, tiny);
+        const Real q = Real(2) * t4 / detail::max(t3 + t4, tiny);
+        return Real(1) - Real(0.5f) * (A_s + A_s + q - A_s * q);
+    }
+
+    Color _n, _k;
+};
+
+REGAIN_NAMESPACE_END

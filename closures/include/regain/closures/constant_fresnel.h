@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+/// @file
+/// Fresnel reflectance that does not depend on the angle. With value 1 it is the perfect mirror of
+/// the white furnace test.
+///
+/// A Fresnel term answers, per channel and in [0, 1]:
+///     at(mu)               reflectance at the cosine mu in [0, 1] between a direction and the
+///                          normal of the facet
+///     normal_incidence()   at(1), the paper's F0
+///     average()            F_ss = 2 int_0^1 at(mu) mu dmu (Turquin 2019, below Eq. 7)
+
+#pragma once
+
+#include <regain/closures/vector.h>
+
+REGAIN_NAMESPACE_BEGIN
+
+template <class RealType>
+class ConstantFresnel
+{
+public:
+    using Real = RealType;
+
+    /// Reflectance in [0, 1] per channel; outside it is clamped, NaN becomes 0.
+    explicit ConstantFresnel(const Color3<Real>& value = Color3<Real>(Real(1)))
+        : _value(detail::per_channel(value, [](Real v) { return detail::saturate(v); }))
+    {}
+
+    Color3<Real> at(Real) const { return _value; }
+    Color3<Real> normal_incidence() const { return _value; }
+    Color3<Real> average() const { return _value; }
+
+private:
+    Color3<Real> _value;
+};
+
+REGAIN_NAMESPACE_END

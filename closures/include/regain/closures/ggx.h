@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+/// @file
+/// The GGX distribution of microfacet normals with Smith's masking and shadowing.
+///
+///   D(m)      = 1 / (pi ax ay ((mx/ax)^2 + (my/ay)^2 + mz^2)^2)
+///               Walter et al. 2007, Eq. 33; anisotropic: Burley 2012, B.1; in this component form
+///               nothing cancels at small alpha
+///   sigma(w)  = cos theta (1 + Lambda(w)) = (cos theta + sqrt((ax wx)^2 + (ay wy)^2 + wz^2)) / 2,
+///               the area of the visible microsurface projected along w: Heitz 2014, Eqs. 23, 72
+///   D_wo(m)   = max(0, wo.m) D(m) / sigma(wo)                    Heitz 2014, Eq. 17
+///   G1 = cos theta / sigma,  G2 = 1 / (1 + Lambda_o + Lambda_i)  height-correlated: Eq. 99
+///
+/// Visible normals are sampled by spherical caps (Dupuy and Benyoub 2023), for reflection lobes
+/// with the cap bounded to what can leave upwards (Eto and Tokuyoshi 2023; Tokuyoshi and Eto 2024).
+///
+/// Directions: local frame, z = shading normal, unit.
+
+#pragma once
+
+#include <regain/closures/vector.h>
+
+REGAIN_NAMESPACE_BEGIN
+
+/// Which part of the visible normals a reflection lobe samples.
+enum class NormalSampling {
+    bounded,  ///< a smaller cap that still holds every normal which reflects upwards: fewer dead
+              ///< samples, less noise
+    full      ///< all visible normals
+};
+
+template <class RealType>
+class GGX
+{
+public:
+    using Real = RealType;
+    using Mask = MaskOf<Real>;
+
+    /// At or below this alpha on both axes the lobe is a mirror. It is where D stops being
+    /// meaningful in the number type: half-vectors are known to a few ulps, D varies over alpha.
+    static constexpr double delta_alpha = sizeof(ScalarOf<Real>) == 4 ? 1e-5 : 1e-9;
+
+    /// Widths along x and y in [0, 1]; outside they are clamped, NaN becomes 1. One axis narrower
+    /// than delta_alpha is widened to it unless both are.
+    explicit GGX(Real alpha_x, Real alpha_y, NormalSampling sampling = NormalSampling::bounded)
+        : _sampling(sampling)
+    {
+        const Real bound = detail::constant<Real>(delta_alpha);
+        const Real ax = detail::sanitised(alpha_x, 0, 1, 1),
+                   ay = detail::sanitised(alpha_y, 0, 1, 1);
+        _delta = (ax <= bound) & (ay <= bound);
+        _alpha_x = detail::max(ax, bound);
+        _alpha_y = detail::max(ay, bound);
+        _inv_alpha_x = Real(1) / _alpha_x;
+        _inv_alpha_y = Real(1) / _alpha_y;
+        _normalisation =
+            detail::constant<Real>(0.318309886183790671538) * _inv_alpha_x * _inv_alpha_y;
+    }
+    explicit GGX(Real alpha) : GGX(alpha, alpha) {}
+
+    Real alpha_x() const { return _alpha_x; }
+    Real alpha_y() const { return _alpha_y; }
+    Mask is_delta() const { return _delta; }
+
+    /// One width in place of two, for what is tabulated over a single alpha: the root mean square,
+    /// which of the simple means leaves the least error.
+    Real effective_alpha() const
+    {
+        const Real mean = detail::sqrt(Real(0.5f) * (_alpha_x * _alpha_x + _alpha_y * _alpha_y));
+        return detail::select(_alpha_x == _alpha_y, _alpha_x, mean);
+    }
+
+    /// D of the normal m along h, which need not be unit: length2 = h.h. Per steradian.
+    Real D(const Vec3<Real>& h, Real length2) const
+    {
+        const Real x = h.x * _inv_alpha_x, y = h.y * _inv_alpha_y;
+        // The quotient first: squaring the lengths one by one would underflow at grazing angles.
+        const Real r = length2 / (x * x + y * y + h.z * h.z);
+        return _normalisation * r * r;
+    }
+    Real D(const Vec3<Real>& m) const { return D(m, Real(1)); }
+
+    /// Projected area of the visible microsurface, sigma(w) above; w.z may have either sign.
+    Real projected_area(const Vec3<Real>& w) const
+    {
+        return Real(0.5f) * (w.z + stretched_length(w));
+    }
+
+    /// Lambda(w) for w.z > 0.
+    Real lambda(const Vec3<Real>& w) const
+    {
+        // (t / z - 1) / 2 loses all digits at small slopes; its conjugate does not.
+        const Real x = _alpha_x * w.x, y = _alpha_y * w.y;
+        return Real(0.5f) * (x * x + y * y) / (w.z * (w.z + stretched_length(w)));
+    }
+
+    Real G1(const Vec3<Real>& w) const { return w.z / projected_area(w); }
+    Real G2(const Vec3<Real>& wo, const Vec3<Real>& wi) const
+    {
+        return Real(1) / (Real(1) + lambda(wo) + lambda(wi));
+    }
+
+    /// The visible normals of one wo, wo.z > 0.
+    class Visible
+    {
+    public:
+        Visible(const GGX& ggx, const Vec3<Real>& wo)
+            : _alpha_x(ggx._alpha_x), _alpha_y(ggx._alpha_y)
+        {
+            const Vec3<Real> v(_alpha_x * wo.x, _alpha_y * wo.y, wo.z);
+            const Real t = ggx.stretched_length(wo);
+            _v = v * (Real(1) / t);
+
+            Real k(1);
+            if (ggx._sampling == NormalSampling::bounded)
+            {
+                const Real a = detail::min(_alpha_x, _alpha_y), a2 = a * a;
+                const Real s = Real(1) + detail::sqrt(wo.x * wo.x + wo.y * wo.y), s2 = s * s;
+                k = (Real(1) - a2) * s2 / (s2 + a2 * wo.z * wo.z);
+            }
+            _cap = k * _v.z;
+            _projected_area = Real(0.5f) * (wo.z + t);
+            _reflected_density = Real(0.5f) / (k * wo.z + t);
+        }
+
+        /// sigma(wo).
+        Real projected_area() const { return _projected_area; }
+
+        /// Factor that turns D(m) into the density of the reflected direction, per steradian.
+        Real reflected_density() const { return _reflected_density; }
+
+        /// A visible normal for u in [0, 1)^2; unit, z >= 0.
+        Vec3<Real> sample(const Vec2<Real>& u) const
+        {
+            const Real phi = detail::constant<Real>(6.28318530717958647692) * detail::saturate(u.x);
+            const Real z = (Real(1) - detail::saturate(u.y)) * (Real(1) + _cap) - _cap;
+            const Real sin_theta = detail::sqrt(detail::max(Real(1) - z * z, Real(0)));
+            const Vec3<Real> h(_v.x + sin_theta * detail::cos(phi),
+                               _v.y + sin_theta * detail::sin(phi), _v.z + z);
+            // Rounding can put h.z a little below 0, and h near 0 where v and the cap cancel.
+            const Vec3<Real> m(_alpha_x * h.x, _alpha_y * h.y,
+                               detail::max(h.z, detail::constant<Real>(1e-9)));
+            return m * (Real(1) / detail::sqrt(detail::dot(m, m)));
+        }
+
+    private:
+        Real _alpha_x, _alpha_y;
+        Vec3<Real> _v;  // wo in the space where the microsurface is a hemisphere
+        Real _cap;      // the cap of reflection directions reaches down to z = -_cap
+        Real _projected_area, _reflected_density;
+    };
+
+    Visible visible(const Vec3<Real>& wo) const { return Visible(*this, wo); }
+
+private:
+    Real stretched_length(const Vec3<Real>& w) const
+    {
+        const Real x = _alpha_x * w.x, y = _alpha_y * w.y;
+        return detail::sqrt(x * x + y * y + w.z * w.z);
+    }
+
+    Real _alpha_x, _alpha_y, _inv_alpha_x, _inv_alpha_y;
+    Real _normalisation;  // 1 / (pi ax ay)
+    Mask _delta;
+    NormalSampling _sampling;
+};
+
+REGAIN_NAMESPACE_END

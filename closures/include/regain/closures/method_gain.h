@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+/// @file
+/// The compensation methods that are a gain on the closure weight:
+///
+///   gain(wo) = 1 + s F_ms (1 - E_ss(wo)) / E_ss(wo)              Turquin 2019, Eqs. 8 and 10
+///
+/// with the strength s in [0, 1] and, by method, the colour of the later bounces F_ms:
+///
+///   normalise      1                                               Eq. 9
+///   turquin        F0                                              Eqs. 15, 16
+///   turquin-eq12   E_avg / (1 - F_ss (1 - E_avg))                  Eq. 12
+///   turquin-eq13   F_ss^(alpha sqrt(alpha))                        Eq. 13
+///   turquin-eq14   F_ss                                            Eq. 14
+///   series         F_ss E_avg / (1 - F_ss (1 - E_avg))             Eq. 7 inside Eq. 8: the series
+///                                                                  that does not count the first
+///                                                                  bounce twice (Hill 2018)
+///
+/// F_ms does not depend on a direction, so it is computed once, when the gain is built.
+
+#pragma once
+
+#include <regain/closures/gain.h>
+#include <regain/closures/table.h>
+
+#include <optional>
+#include <string_view>
+
+REGAIN_NAMESPACE_BEGIN
+
+enum class Method { none, normalise, turquin, turquin_eq12, turquin_eq13, turquin_eq14, series };
+
+constexpr Method all_methods[] = {Method::none,         Method::normalise,    Method::turquin,
+                                  Method::turquin_eq12, Method::turquin_eq13, Method::turquin_eq14,
+                                  Method::series};
+
+/// The name on command lines and in documents.
+constexpr std::string_view name(Method method)
+{
+    switch (method)
+    {
+        case Method::none: return "none";
+        case Method::normalise: return "normalise";
+        case Method::turquin: return "turquin";
+        case Method::turquin_eq12: return "turquin-eq12";
+        case Method::turquin_eq13: return "turquin-eq13";
+        case Method::turquin_eq14: return "turquin-eq14";
+        case Method::series: return "series";
+    }
+    return "";
+}
+
+/// The method of that name, or nothing.
+constexpr std::optional<Method> method_named(std::string_view wanted)
+{
+    for (Method m : all_methods)
+        if (name(m) == wanted) return m;
+    return std::nullopt;
+}
+
+/// The gain of a method for a lobe of one alpha and Fresnel term. With a table missing that the
+/// method needs, the gain is 1.
+template <class RealType>
+class MethodGain
+{
+public:
+    using Real = RealType;
+    using Color = Color3<Real>;
+
+    /// `lobe` is a MicrofacetReflection; strength is clamped to [0, 1], NaN becomes 0.
+    template <class Lobe>
+    MethodGain(const Lobe& lobe, Method method, const MicrofacetTables& tables, Real strength)
+        : _E_ss(tables.E_ss)
+    {
+        _alpha = lobe.distribution().effective_alpha();
+        _sqrt_alpha = detail::sqrt(_alpha);
+        const bool needs_average = method == Method::turquin_eq12 || method == Method::series;
+        _bound = method != Method::none && tables.E_ss && (tables.E_avg || !needs_average);
+        if (!_bound) return;
+
+        // A mirror loses nothing to later bounces.
+        const Real s =
+            detail::select(lobe.distribution().is_delta(), Real(0), detail::saturate(strength));
+        const Real E_avg = needs_average ? tables.E_avg.at(_sqrt_alpha) : Real(1);
+        _F_ms = F_ms(method, lobe.fresnel(), E_avg) * s;
+        _full = method != Method::none && detail::all<Real>(s == Real(1));
+    }
+
+    Color at(const Vec3<Real>& wo) const
+    {
+        if (!_bound) return Color(Real(1));
+        const Real E = detail::min(
+            _E_ss.at(stretched_cosine(detail::saturate(wo.z), _alpha), _sqrt_alpha), Real(1));
+        return Color(Real(1)) + _F_ms * ((Real(1) - E) / E);
+    }
+
+    /// Every method has F_ms = 1 where F = 1.
+    bool energy_preserving() const { return _bound && _full; }
+
+private:
+    template <class Fresnel>
+    Color F_ms(Method method, const Fresnel& fresnel, Real E_avg) const
+    {
+        const Color one(Real(1));
+        switch (method)
+        {
+            case Method::normalise: return one;
+            case Method::turquin: return fresnel.normal_incidence();
+            case Method::turquin_eq12:
+                return detail::per_channel(fresnel.average(), [&](Real F_ss) {
+                    return E_avg / (Real(1) - F_ss * (Real(1) - E_avg));
+                });
+            case Method::turquin_eq13:
+                return detail::per_channel(fresnel.average(), [&](Real F_ss) {
+                    // pow of 0 in a vector goes through log.
+                    return detail::pow(detail::max(F_ss, detail::constant<Real>(1e-20)),
+                                       _alpha * _sqrt_alpha);
+                });
+            case Method::turquin_eq14: return fresnel.average();
+            case Method::series:
+                return detail::per_channel(fresnel.average(), [&](Real F_ss) {
+                    return F_ss * E_avg / (Real(1) - F_ss * (Real(1) - E_avg));
+                });
+            case Method::none: break;
+        }
+        return Color(Real(0));
+    }
+
+    TableView _E_ss;
+    Color _F_ms = Color(Real(0));
+    Real _alpha, _sqrt_alpha;
+    bool _bound = false, _full = false;
+};
+
+REGAIN_NAMESPACE_END

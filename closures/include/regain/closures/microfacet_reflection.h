@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+/// @file
+/// Reflection from a rough surface of microfacets that each reflect like a mirror, once:
+///
+///   f(wo, wi) = F(wo.h) D(h) G2(wo, wi) / (4 cos theta_o cos theta_i),   h = (wo + wi) / |wo + wi|
+///
+/// Turquin 2019, Eq. 1; Torrance and Sparrow 1967. With sigma = cos theta / G1 for each direction
+/// this is, times cos theta_i,
+///
+///   f cos theta_i = F D cos theta_i / (4 (sigma_o cos_i + sigma_i cos_o - cos_o cos_i))
+///
+/// which stays finite at grazing angles. What a second bounce would bring is lost: that is what
+/// compensated.h gives back. When the distribution is at its delta limit, the closure is a mirror.
+
+#pragma once
+
+#include <regain/closures/closure.h>
+#include <regain/closures/table.h>
+
+REGAIN_NAMESPACE_BEGIN
+
+template <class DistributionType, class FresnelType>
+class MicrofacetReflection
+{
+public:
+    using Distribution = DistributionType;
+    using Fresnel = FresnelType;
+    using Real = typename Distribution::Real;
+    using Mask = MaskOf<Real>;
+    using Color = Color3<Real>;
+
+    /// `tables` make albedo() a look-up; without them it integrates, which is slower.
+    MicrofacetReflection(const Distribution& distribution, const Fresnel& fresnel,
+                         const MicrofacetTables& tables = {})
+        : _distribution(distribution), _fresnel(fresnel), _tables(tables)
+    {}
+
+    const Distribution& distribution() const { return _distribution; }
+    const Fresnel& fresnel() const { return _fresnel; }
+
+    const MicrofacetTables& tables() const { return _tables; }
+    void set_tables(const MicrofacetTables& tables) { _tables = tables; }
+
+    Traits traits() const
+    {
+        Traits t;
+        t.reciprocal = true;
+        t.exact_pdf = true;
+        t.delta = detail::any<Real>(_distribution.is_delta());
+        t.anisotropic = !detail::all<Real>(_distribution.alpha_x() == _distribution.alpha_y());
+        t.random_numbers = 2;
+        return t;
+    }
+
+    class Prepared
+    {
+    public:
+        Prepared(const MicrofacetReflection& lobe, const Vec3<Real>& wo)
+            : _lobe(lobe),
+              _delta(lobe._distribution.is_delta()),
+              _valid(detail::is_above_horizon(wo)),
+              _wo(detail::select(_valid, wo, Vec3<Real>(Real(0), Real(0), Real(1)))),
+              _visible(lobe._distribution.visible(_wo)),
+              _weight(detail::select(_valid, Real(1), Real(0)))
+        {}
+
+        const Vec3<Real>& wo() const { return _wo; }
+
+        /// Multiplies the closure weight: all that eval, sample and albedo return, and no direction
+        /// or pdf.
+        void scale_by(const Color& weight) { _weight *= weight; }
+
+        Color eval(const Vec3<Real>& wi) const
+        {
+            const Terms t = terms(wi);
+            return detail::select(t.valid, _lobe._fresnel.at(t.cos_facet) * _weight * t.value,
+                                  Color(Real(0)));
+        }
+
+        /// u in [0, 1)^2.
+        Sample<Real> sample(const Vec2<Real>& u) const
+        {
+            const Vec3<Real> m =
+                detail::select(_delta, Vec3<Real>(Real(0), Real(0), Real(1)), _visible.sample(u));
+            const Vec3<Real> wi = m * (Real(2) * detail::dot(_wo, m)) - _wo;
+            const Terms t = terms(wi);
+
+            Sample<Real> s;
+            s.valid = _valid & (_delta | t.valid);
+            s.delta = s.valid & _delta;
+            s.wi = detail::select(s.valid, wi, Vec3<Real>(Real(0), Real(0), Real(1)));
+            const Color F = _lobe._fresnel.at(detail::select(_delta, _wo.z, t.cos_facet)) * _weight;
+            s.weight = detail::select(
+                s.valid, F * detail::select(_delta, Real(1), t.value / t.density), Color(Real(0)));
+            s.pdf = detail::select(s.valid, detail::select(_delta, Real(1), t.density), Real(0));
+            return s;
+        }
+
+        Real pdf(const Vec3<Real>& wi) const
+        {
+            const Terms t = terms(wi);
+            return detail::select(t.valid, t.density, Real(0));
+        }
+
+        Albedo<Real> albedo() const
+        {
+            if (_lobe._tables.E_ss && _lobe._tables.fresnel_blend)
+                return {tabulated_albedo(), Color(Real(0))};
+            return {integrated_albedo(), Color(Real(0))};
+        }
+
+    private:
+        // All that eval, sample and pdf have in common, so that weight = eval / pdf by
+        // construction.
+        struct Terms
+        {
+            Mask valid;    // the one predicate: sample returns such wi, eval and pdf know no others
+            Real value;    // f cos theta_i with F = 1
+            Real density;  // per steradian
+            Real cos_facet;  // wo.h
+        };
+
+        Terms terms(const Vec3<Real>& direction) const
+        {
+            const Distribution& distribution = _lobe._distribution;
+
+            Terms t;
+            t.valid = _valid & !_delta & detail::is_above_horizon(direction);
+            const Vec3<Real> wi =
+                detail::select(t.valid, direction, Vec3<Real>(Real(0), Real(0), Real(1)));
+
+            const Vec3<Real> h = _wo + wi;
+            const Real length2 = detail::dot(h, h);
+            // wo.h of the unit half-vector is half the length of the sum.
+            t.cos_facet = detail::min(Real(0.5f) * detail::sqrt(length2), Real(1));
+
+            const Real D = distribution.D(h, length2);
+            const Real sigma_o = _visible.projected_area(),
+                       sigma_i = distribution.projected_area(wi);
+            t.value = D * Real(0.25f) * wi.z / (sigma_o * wi.z + sigma_i * _wo.z - _wo.z * wi.z);
+            t.density = D * _visible.reflected_density();
+            return t;
+        }
+
+        Color tabulated_albedo() const
+        {
+            const Real alpha = _lobe._distribution.effective_alpha(), mu = _wo.z;
+            const Real x = stretched_cosine(mu, alpha), y = detail::sqrt(alpha);
+            const Real E =
+                detail::select(_delta, Real(1), detail::min(_lobe._tables.E_ss.at(x, y), Real(1)));
+            const Real c = Real(1) - mu, c2 = c * c, falloff = c2 * c2 * c;
+            const Real mean = detail::saturate(falloff + _lobe._tables.fresnel_blend.at(x, y));
+            const Real cos_mean = Real(1) - detail::pow(mean, detail::constant<Real>(0.2));
+            return _lobe._fresnel.at(detail::select(_delta, mu, cos_mean)) * _weight * E;
+        }
+
+        // The mean weight over a grid of random numbers.
+        Color integrated_albedo() const
+        {
+            constexpr int n = 24;
+            Color sum(Real(0));
+            for (int j = 0; j < n; ++j)
+                for (int i = 0; i < n; ++i)
+                    sum += sample({detail::constant<Real>((i + 0.5) / n),
+                                   detail::constant<Real>((j + 0.5) / n)})
+                               .weight;
+            return sum * detail::constant<Real>(1.0 / (n * n));
+        }
+
+        MicrofacetReflection _lobe;
+        Mask _delta, _valid;
+        Vec3<Real> _wo;
+        typename Distribution::Visible _visible;
+        Color _weight;
+    };
+
+    Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
+
+    Color eval(const Vec3<Real>& wo, const Vec3<Real>& wi) const { return prepare(wo).eval(wi); }
+    Sample<Real> sample(const Vec3<Real>& wo, const Vec2<Real>& u) const
+    {
+        return prepare(wo).sample(u);
+    }
+    Real pdf(const Vec3<Real>& wo, const Vec3<Real>& wi) const { return prepare(wo).pdf(wi); }
+    Albedo<Real> albedo(const Vec3<Real>& wo) const { return prepare(wo).albedo(); }
+
+private:
+    Distribution _distribution;
+    Fresnel _fresnel;
+    MicrofacetTables _tables;
+};
+
+REGAIN_NAMESPACE_END

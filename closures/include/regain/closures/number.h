@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+/// @file
+/// What a number is to the closures: float, double, or a vector of floats. Code that has to work
+/// for all of them selects with masks instead of branching and calls the functions of `detail`
+/// below. A vector type joins by specialising NumberTraits, as <regain/closures/xsimd.h> does.
+
+#pragma once
+
+#include <regain/closures/version.h>
+
+#include <cmath>
+#include <cstdint>
+#include <type_traits>
+
+REGAIN_NAMESPACE_BEGIN
+
+/// The types and operations that go with a number type; float and double here.
+template <class Real, class = void>
+struct NumberTraits;
+
+template <class Real>
+struct NumberTraits<Real, std::enable_if_t<std::is_floating_point_v<Real>>>
+{
+    using Scalar = Real;
+    using Mask = bool;
+    using Index = int;
+
+    static Real select(bool mask, Real a, Real b) { return mask ? a : b; }
+    static bool all(bool mask) { return mask; }
+    static bool any(bool mask) { return mask; }
+
+    /// a < b, where a may be unchecked input: false for a quiet NaN, which raises no exception.
+    static bool quiet_less(Real a, Real b) { return std::isless(a, b); }
+
+    static Real min(Real a, Real b) { return b < a ? b : a; }
+    static Real max(Real a, Real b) { return a < b ? b : a; }
+    static Real abs(Real x) { return std::abs(x); }
+    static Real sqrt(Real x) { return std::sqrt(x); }
+    static Real sin(Real x) { return std::sin(x); }
+    static Real cos(Real x) { return std::cos(x); }
+    static Real pow(Real x, Real y) { return std::pow(x, y); }
+
+    /// Towards zero; x is within the range of int.
+    static Index truncate(Real x) { return static_cast<int>(x); }
+    static Real to_real(Index i) { return static_cast<Real>(i); }
+    static Index at_most(Index i, int limit) { return i < limit ? i : limit; }
+
+    /// data[i] as a number.
+    static Real gather(const std::uint16_t* data, Index i) { return static_cast<Real>(data[i]); }
+};
+
+template <class Real>
+using MaskOf = typename NumberTraits<Real>::Mask;
+template <class Real>
+using ScalarOf = typename NumberTraits<Real>::Scalar;
+template <class Real>
+using IndexOf = typename NumberTraits<Real>::Index;
+
+namespace detail {
+
+template <class T>
+T select(const MaskOf<T>& mask, const T& a, const T& b)
+{
+    return NumberTraits<T>::select(mask, a, b);
+}
+template <class T>
+MaskOf<T> quiet_less(const T& a, const T& b)
+{
+    return NumberTraits<T>::quiet_less(a, b);
+}
+template <class T>
+T min(const T& a, const T& b)
+{
+    return NumberTraits<T>::min(a, b);
+}
+template <class T>
+T max(const T& a, const T& b)
+{
+    return NumberTraits<T>::max(a, b);
+}
+template <class T>
+T abs(const T& x)
+{
+    return NumberTraits<T>::abs(x);
+}
+template <class T>
+T sqrt(const T& x)
+{
+    return NumberTraits<T>::sqrt(x);
+}
+template <class T>
+T sin(const T& x)
+{
+    return NumberTraits<T>::sin(x);
+}
+template <class T>
+T cos(const T& x)
+{
+    return NumberTraits<T>::cos(x);
+}
+template <class T>
+T pow(const T& x, const T& y)
+{
+    return NumberTraits<T>::pow(x, y);
+}
+
+/// Every lane, some lane.
+template <class Real>
+bool all(const MaskOf<Real>& mask)
+{
+    return NumberTraits<Real>::all(mask);
+}
+template <class Real>
+bool any(const MaskOf<Real>& mask)
+{
+    return NumberTraits<Real>::any(mask);
+}
+
+/// A constant at the precision of Real.
+template <class Real>
+Real constant(double x)
+{
+    return Real(static_cast<ScalarOf<Real>>(x));
+}
+
+/// x limited to [lo, hi]; a NaN becomes `otherwise`. Raises no exception for a quiet NaN.
+template <class Real>
+Real sanitised(const Real& x, double lo, double hi, double otherwise)
+{
+    const Real low = constant<Real>(lo), high = constant<Real>(hi);
+    const Real number = select(x != x, constant<Real>(otherwise), x);
+    return select(quiet_less(number, low), low, select(quiet_less(high, number), high, number));
+}
+
+/// x limited to [0, 1]; a NaN becomes 0.
+template <class Real>
+Real saturate(const Real& x)
+{
+    return sanitised(x, 0, 1, 0);
+}
+
+}  // namespace detail
+
+REGAIN_NAMESPACE_END

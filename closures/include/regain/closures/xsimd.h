@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+/// @file
+/// Vectors of floats: include this header to instantiate closures for xsimd::batch. Every number in
+/// a closure, its parameters included, then differs by lane. Needs xsimd; nothing else in the
+/// closures does.
+
+#pragma once
+
+#include <regain/closures/number.h>
+
+#include <xsimd/xsimd.hpp>
+
+REGAIN_NAMESPACE_BEGIN
+
+template <class T, class Arch>
+struct NumberTraits<xsimd::batch<T, Arch>>
+{
+    using Batch = xsimd::batch<T, Arch>;
+    using Scalar = T;
+    using Mask = typename Batch::batch_bool_type;
+    using Index = xsimd::batch<xsimd::as_integer_t<T>, Arch>;
+
+    static Batch select(const Mask& mask, const Batch& a, const Batch& b)
+    {
+        return xsimd::select(mask, a, b);
+    }
+    static bool all(const Mask& mask) { return xsimd::all(mask); }
+    static bool any(const Mask& mask) { return xsimd::any(mask); }
+    static Mask quiet_less(const Batch& a, const Batch& b) { return a < b; }
+
+    static Batch min(const Batch& a, const Batch& b) { return xsimd::min(a, b); }
+    static Batch max(const Batch& a, const Batch& b) { return xsimd::max(a, b); }
+    static Batch abs(const Batch& x) { return xsimd::abs(x); }
+    static Batch sqrt(const Batch& x) { return xsimd::sqrt(x); }
+    static Batch sin(const Batch& x) { return xsimd::sin(x); }
+    static Batch cos(const Batch& x) { return xsimd::cos(x); }
+    static Batch pow(const Batch& x, const Batch& y) { return xsimd::pow(x, y); }
+
+    static Index truncate(const Batch& x) { return xsimd::to_int(x); }
+    static Batch to_real(const Index& i) { return xsimd::to_float(i); }
+    static Index at_most(const Index& i, int limit) { return xsimd::min(i, Index(limit)); }
+
+    static Batch gather(const std::uint16_t* data, const Index& i)
+    {
+        // There is no 16-bit gather; the lanes are few.
+        alignas(Arch::alignment()) xsimd::as_integer_t<T> at[Batch::size];
+        alignas(Arch::alignment()) T values[Batch::size];
+        i.store_aligned(at);
+        for (std::size_t lane = 0; lane < Batch::size; ++lane)
+            values[lane] = static_cast<T>(data[at[lane]]);
+        return Batch::load_aligned(values);
+    }
+};
+
+REGAIN_NAMESPACE_END

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+#include "picture.h"
+
+#include <regain/luts/replace_file.h>
+
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+
+namespace regain::tools {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* software = "Regain " REGAIN_VERSION_STRING;
+
+void check(const fs::path& file, const Picture& picture)
+{
+    const auto fail = [&](const std::string& why) {
+        throw std::runtime_error("cannot write '" + file.string() + "': " + why);
+    };
+    if (picture.width < 1 || picture.height < 1) fail("the picture is empty");
+    if (picture.pixels.size() != std::size_t(picture.width) * std::size_t(picture.height))
+        fail("the picture is " + std::to_string(picture.width) + " x " +
+             std::to_string(picture.height) + " but has " + std::to_string(picture.pixels.size()) +
+             " pixels");
+
+    // Never painted over: a pixel that is not a number is a defect in what made it.
+    const auto bad =
+        std::count_if(picture.pixels.begin(), picture.pixels.end(), [](const Imath::C3f& p) {
+            return !std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z);
+        });
+    if (bad > 0)
+        fail(std::to_string(bad) + " of " + std::to_string(picture.pixels.size()) +
+             " pixels are not finite");
+}
+
+void write(const fs::path& file, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
+           const void* values)
+{
+    luts::replace_file(file, [&](const fs::path& temporary) {
+        const auto fail = [&](const std::string& why) {
+            throw std::runtime_error("cannot write '" + file.string() + "': " + why);
+        };
+        const auto output = OIIO::ImageOutput::create(temporary.string());
+        if (!output) fail(OIIO::geterror());
+        if (!output->open(temporary.string(), spec)) fail(output->geterror());
+        const bool written = output->write_image(type, values);
+        // A full disk shows only now.
+        if (!output->close() || !written) fail(output->geterror());
+    });
+}
+
+// Where the extension is another, OpenImageIO would write another format.
+void need_extension(const fs::path& file, const std::string& extension)
+{
+    std::string given = file.extension().string();
+    std::transform(given.begin(), given.end(), given.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (given != extension)
+        throw std::runtime_error("cannot write '" + file.string() + "': its name must end in " +
+                                 extension);
+}
+
+}  // namespace
+
+void write_exr(const fs::path& file, const Picture& picture, const Metadata& metadata)
+{
+    need_extension(file, ".exr");
+    check(file, picture);
+
+    constexpr float half_max = 65504.0f;
+    std::vector<Imath::C3f> pixels = picture.pixels;
+    for (Imath::C3f& p : pixels)
+        for (int c = 0; c < 3; ++c) p[c] = std::clamp(p[c], -half_max, half_max);
+
+    OIIO::ImageSpec spec(picture.width, picture.height, 3, OIIO::TypeDesc::HALF);
+    spec.attribute("compression", "zip");
+    spec.attribute("Software", software);
+    std::string space;
+    for (const auto& [name, value] : metadata.entries)
+    {
+        spec.attribute("regain:" + name, value);
+        if (name == "colorspace") space = value;
+    }
+    if (space.empty())
+    {
+        space = shaders::ColorConfig::active().scene_linear();
+        spec.attribute("regain:colorspace", space);
+    }
+    spec.attribute("oiio:ColorSpace", space);
+    if (!spec.find_attribute("regain:version"))
+        spec.attribute("regain:version", REGAIN_VERSION_STRING);
+
+    write(file, spec, OIIO::TypeDesc::FLOAT, pixels.data());
+}
+
+void write_png(const fs::path& file, const Picture& picture, const shaders::ColorConfig& config,
+               const std::string& display, const std::string& view)
+{
+    need_extension(file, ".png");
+    check(file, picture);
+    const shaders::ColorTransform to_display = config.display_transform(display, view);
+    std::vector<Imath::C3f> pixels = picture.pixels;
+    to_display.apply(pixels);
+
+    // Rounded here, not by the writer, whose rounding may change with its version.
+    std::vector<std::uint8_t> bytes;
+    bytes.reserve(3 * pixels.size());
+    for (const Imath::C3f& p : pixels)
+        for (int c = 0; c < 3; ++c)
+        {
+            const float v = p[c] > 0 ? std::min(p[c], 1.0f) : 0.0f;
+            bytes.push_back(static_cast<std::uint8_t>(v * 255.0f + 0.5f));
+        }
+
+    OIIO::ImageSpec spec(picture.width, picture.height, 3, OIIO::TypeDesc::UINT8);
+    spec.attribute("Software", software);
+    write(file, spec, OIIO::TypeDesc::UINT8, bytes.data());
+}
+
+}  // namespace regain::tools

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+/// @file
+/// Pictures, and how they get to disk: EXR for work, PNG for eyes. Files appear whole or not at
+/// all.
+
+#pragma once
+
+#include <regain/shaders/color_config.h>
+
+#include <Imath/ImathColor.h>
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace regain::tools {
+
+/// Row-major, top row first, scene linear.
+struct Picture
+{
+    int width = 0, height = 0;
+    std::vector<Imath::C3f> pixels;
+};
+
+/// Written as text attributes "regain:NAME", in this order.
+struct Metadata
+{
+    std::vector<std::pair<std::string, std::string>> entries;
+};
+
+/// Half float, scene linear. Values beyond the range of half (65504) are clamped to it.
+/// The file says the software and its version, and its colour space: the entry "colorspace" where
+/// there is one, otherwise the scene_linear of ColorConfig::active(). Throws std::runtime_error if
+/// a pixel is not finite (with their number), if the size does not fit the pixels, or if the file
+/// cannot be written.
+void write_exr(const std::filesystem::path& file, const Picture& picture, const Metadata& metadata);
+
+/// 8 bits a channel, through the display and view of the config ("" = default); values are clamped
+/// to [0, 1] and rounded to the nearest step, without dither. Throws as write_exr does, and where
+/// the config does not know the display or the view.
+void write_png(const std::filesystem::path& file, const Picture& picture,
+               const shaders::ColorConfig& config, const std::string& display,
+               const std::string& view);
+
+}  // namespace regain::tools

@@ -99,7 +99,7 @@ void parse_size(const std::string& text, int* width, int* height)
         static_cast<std::size_t>(used) != text.size() || *width < kLeast || *height < kLeast ||
         *width > kMost || *height > kMost)
         refuse("--size", text,
-               fmt::format("takes WIDTHxHEIGHT in pixels, each {} to {}, for example 1440x640",
+               fmt::format("takes WIDTHxHEIGHT in pixels, each {} to {}, for example 1440x600",
                            kLeast, kMost));
 }
 
@@ -161,7 +161,7 @@ Plan make_plan(const Options& options)
               std::move(config),
               std::move(metal),
               {}};
-    plan.height = 320 * static_cast<int>(plan.methods.size());
+    plan.height = 300 * static_cast<int>(plan.methods.size());
     if (!options.size.empty()) parse_size(options.size, &plan.width, &plan.height);
     check_outputs(plan);
 

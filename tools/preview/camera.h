@@ -44,12 +44,12 @@ private:
 /// above, so that the floor fills the frame. The row fits whatever the frame's shape.
 inline Camera frame_row(int count, float spacing, float widget_height, float aspect)
 {
-    const float half_width =
-        std::max(0.5f * spacing * static_cast<float>(count) * 1.02f, 0.8f * widget_height * aspect);
+    const float half_width = std::max(0.5f * spacing * static_cast<float>(count) * 1.02f,
+                                      0.72f * widget_height * aspect);
     const float half_height = half_width / aspect;
     const float elevation = 0.30f;                     // radians above the horizon
     const float distance = half_width / 0.21f + 8.0f;  // a long lens: the ends are not distorted
-    const Imath::V3f target(0.0f, 0.47f * widget_height, 0.0f);
+    const Imath::V3f target(0.0f, 0.48f * widget_height, 0.0f);
     const Imath::V3f away(0.0f, std::sin(elevation), std::cos(elevation));
     return {target + away * distance, target, half_width, half_height};
 }

@@ -18,10 +18,14 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-std::size_t at(const LatLongImage& image, int row, int column)
+/// Index of a pixel, at most one pixel outside: sideways the image closes on itself, and beyond the
+/// first and last row the same row goes on.
+std::size_t at_pixel(const LatLongImage& image, int row, int column)
 {
     const int y = std::clamp(row, 0, image.height - 1);
-    const int x = (column + image.width) % image.width;  // the image closes on itself sideways
+    const int x = column < 0              ? column + image.width
+                  : column >= image.width ? column - image.width
+                                          : column;
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
            static_cast<std::size_t>(x);
 }
@@ -75,10 +79,11 @@ Environment::Environment(LatLongImage image) : _image(std::move(image))
 {
     const int width = _image.width, height = _image.height;
     const auto luminance = [&](int row, int column) {
-        const C3f& c = _image.pixels[at(_image, row, column)];
+        const C3f& c = _image.pixels[at_pixel(_image, row, column)];
         return 0.2126 * double(c.x) + 0.7152 * double(c.y) + 0.0722 * double(c.z);
     };
 
+    _row_cosine.resize(static_cast<std::size_t>(height) + 1, 1.0f);
     _row_solid_angle.resize(static_cast<std::size_t>(height));
     _rows.resize(static_cast<std::size_t>(height) + 1);
     _columns.resize(static_cast<std::size_t>(height) * (static_cast<std::size_t>(width) + 1));
@@ -106,6 +111,7 @@ Environment::Environment(LatLongImage image) : _image(std::move(image))
         make_cdf(columns,
                  &_columns[static_cast<std::size_t>(row) * (static_cast<std::size_t>(width) + 1)]);
         rows[static_cast<std::size_t>(row)] = sum * angle;
+        _row_cosine[static_cast<std::size_t>(row) + 1] = static_cast<float>(bottom);
         _row_solid_angle[static_cast<std::size_t>(row)] = static_cast<float>(angle);
     }
     if (*std::max_element(rows.begin(), rows.end()) <= 0.0)
@@ -122,51 +128,49 @@ float Environment::probability(int row, int column) const
 
 Environment::Sample Environment::sample(const V2f& u) const
 {
-    float v_rest = 0.0f, u_rest = 0.0f;
-    const int row = pick(_rows.data(), _image.height, u.y, &v_rest);
+    float x_rest = 0.0f, y_rest = 0.0f;
+    const int row = pick(_rows.data(), _image.height, u.y, &y_rest);
     const float* cdf =
         &_columns[static_cast<std::size_t>(row) * (static_cast<std::size_t>(_image.width) + 1)];
-    const int column = pick(cdf, _image.width, u.x, &u_rest);
+    const int column = pick(cdf, _image.width, u.x, &x_rest);
 
     // Uniform over the pixel's solid angle: linear in longitude and in the cosine.
-    const double pi = kPi;
-    const double top = std::cos(pi * row / _image.height);
-    const double bottom = std::cos(pi * (row + 1) / _image.height);
-    const double y = top + (bottom - top) * static_cast<double>(v_rest);
-    const double radius = std::sqrt(std::max(0.0, 1.0 - y * y));
-    const double longitude =
-        pi * (1.0 - 2.0 * (column + static_cast<double>(u_rest)) / _image.width);
+    const float top = _row_cosine[static_cast<std::size_t>(row)];
+    const float bottom = _row_cosine[static_cast<std::size_t>(row) + 1];
+    const float y = top + (bottom - top) * y_rest;
+    const float radius = std::sqrt(std::max(0.0f, 1.0f - y * y));
+    const float across = static_cast<float>(column) + x_rest;
+    const float longitude =
+        static_cast<float>(kPi) * (1.0f - 2.0f * across / static_cast<float>(_image.width));
     Sample s;
-    s.direction = V3f(static_cast<float>(radius * std::sin(longitude)), static_cast<float>(y),
-                      static_cast<float>(radius * std::cos(longitude)));
-    s.radiance = radiance(s.direction);
-    s.pdf = probability(row, column) / solid_angle(row);
+    s.direction = V3f(radius * std::sin(longitude), y, radius * std::cos(longitude));
+    const float down = std::acos(y) * static_cast<float>(_image.height / kPi);
+    s.light = {interpolated(across, down), probability(row, column) / solid_angle(row)};
     return s;
 }
 
-C3f Environment::radiance(const V3f& direction) const
+Environment::Light Environment::at(const V3f& direction) const
 {
     const V2f p = latlong_point(direction);
-    const float x = p.x * static_cast<float>(_image.width) - 0.5f;
-    const float y = p.y * static_cast<float>(_image.height) - 0.5f;
-    const float fx = std::floor(x), fy = std::floor(y);
-    const int column = static_cast<int>(fx), row = static_cast<int>(fy);
-    const float s = x - fx, t = y - fy;
-    const auto& c = _image.pixels;
-    const C3f above = c[at(_image, row, column)] * (1.0f - s) + c[at(_image, row, column + 1)] * s;
-    const C3f below =
-        c[at(_image, row + 1, column)] * (1.0f - s) + c[at(_image, row + 1, column + 1)] * s;
-    return above * (1.0f - t) + below * t;
+    const float x = p.x * static_cast<float>(_image.width);
+    const float y = p.y * static_cast<float>(_image.height);
+    const int column = std::clamp(static_cast<int>(x), 0, _image.width - 1);
+    const int row = std::clamp(static_cast<int>(y), 0, _image.height - 1);
+    return {interpolated(x, y), probability(row, column) / solid_angle(row)};
 }
 
-float Environment::pdf(const V3f& direction) const
+/// Bilinear between pixel centres; x, y in pixels from the top left corner.
+C3f Environment::interpolated(float x, float y) const
 {
-    const V2f p = latlong_point(direction);
-    const int row =
-        std::clamp(static_cast<int>(p.y * static_cast<float>(_image.height)), 0, _image.height - 1);
-    const int column =
-        std::clamp(static_cast<int>(p.x * static_cast<float>(_image.width)), 0, _image.width - 1);
-    return probability(row, column) / solid_angle(row);
+    const float fx = std::floor(x - 0.5f), fy = std::floor(y - 0.5f);
+    const int column = static_cast<int>(fx), row = static_cast<int>(fy);
+    const float s = x - 0.5f - fx, t = y - 0.5f - fy;
+    const auto& c = _image.pixels;
+    const C3f above =
+        c[at_pixel(_image, row, column)] * (1.0f - s) + c[at_pixel(_image, row, column + 1)] * s;
+    const C3f below = c[at_pixel(_image, row + 1, column)] * (1.0f - s) +
+                      c[at_pixel(_image, row + 1, column + 1)] * s;
+    return above * (1.0f - t) + below * t;
 }
 
 }  // namespace regain::tools::preview

@@ -40,22 +40,27 @@ public:
     /// Throws BadInput when the image holds no light.
     explicit Environment(LatLongImage);
 
+    struct Light
+    {
+        Imath::C3f radiance;
+        float pdf;  ///< of `sample`, per steradian
+    };
     struct Sample
     {
         Imath::V3f direction;  ///< unit, towards the light
-        Imath::C3f radiance;
-        float pdf;  ///< per steradian
+        Light light;
     };
 
     Sample sample(const Imath::V2f& u) const;
-    Imath::C3f radiance(const Imath::V3f& direction) const;
-    float pdf(const Imath::V3f& direction) const;
+    Light at(const Imath::V3f& direction) const;
 
 private:
     float solid_angle(int row) const { return _row_solid_angle[static_cast<std::size_t>(row)]; }
     float probability(int row, int column) const;
+    Imath::C3f interpolated(float x, float y) const;
 
     LatLongImage _image;
+    std::vector<float> _row_cosine;       // height + 1: cosines from the zenith of the row borders
     std::vector<float> _row_solid_angle;  // of one pixel, steradians
     std::vector<float> _rows;             // height + 1: distribution of the row
     std::vector<float> _columns;          // (width + 1) per row: of the column, given the row

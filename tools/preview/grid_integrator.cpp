@@ -62,7 +62,7 @@ struct GridIntegrator::Workspace
     const Sampler* samplers[kBatch];
     V3f view[kBatch], normal[kBatch], geometric_normal[kBatch], tangent[kBatch];
 
-    Environment::Sample light[kBatch];
+    Environment::Light light[kBatch];
     V3f direction[kBatch];
     renderman::LobeSet wanted[kBatch], evaluated[kBatch];
     renderman::Lobe sampled[kBatch];
@@ -176,8 +176,9 @@ void GridIntegrator::shade(const GridMaterial& material, Path* const* paths, int
     for (int i = 0; i < n; ++i)
     {
         const V2f u = paths[i]->sampler.get2D(dimension(Draw::Light, bounce));
-        w.light[i] = _world.environment.sample(u);
-        w.direction[i] = w.light[i].direction;
+        const Environment::Sample sample = _world.environment.sample(u);
+        w.light[i] = sample.light;
+        w.direction[i] = sample.direction;
         if (!(w.light[i].pdf > 0.0f) || !in_domain(i, w.direction[i])) w.wanted[i].clear();
     }
     {
@@ -191,7 +192,7 @@ void GridIntegrator::shade(const GridMaterial& material, Path* const* paths, int
             const C3f value = weights.total(i);
             if (value == C3f(0.0f)) continue;
             if (_world.scene.occluded(paths[i]->hit.leave(w.direction[i]))) continue;
-            const Environment::Sample& light = w.light[i];
+            const Environment::Light& light = w.light[i];
             const float share = mis_weight(light.pdf, w.forward_pdf[i]) / light.pdf;
             paths[i]->radiance += paths[i]->throughput * value * light.radiance * share;
         }

@@ -92,10 +92,9 @@ struct PathState
 /// Light that the path's ray finds when it leaves the scene.
 inline void add_environment(const Environment& environment, PathState& path)
 {
-    const Imath::C3f light = environment.radiance(path.ray.direction);
-    const float weight =
-        path.alone ? 1.0f : mis_weight(path.pdf, environment.pdf(path.ray.direction));
-    path.radiance += path.throughput * light * weight;
+    const Environment::Light light = environment.at(path.ray.direction);
+    const float weight = path.alone ? 1.0f : mis_weight(path.pdf, light.pdf);
+    path.radiance += path.throughput * light.radiance * weight;
 }
 
 /// Ends dim paths by chance from the fourth bounce on, without bias. A throughput of 1, as white

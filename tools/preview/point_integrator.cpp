@@ -159,14 +159,14 @@ bool PointIntegrator::bounce(PathState& path, const Hit& hit, const Sampler& sam
         return false;
     };
 
-    const Environment::Sample light =
+    const auto [to_light, light] =
         _world.environment.sample(sampler.get2D(dimension(Draw::Light, bounce)));
-    if (light.pdf > 0.0f && any_possible(light.direction))
+    if (light.pdf > 0.0f && any_possible(to_light))
     {
         C3f value(0.0f);
         float pdf = 0.0f;
-        mixture.evaluate(light.direction, -1, &value, &pdf);
-        if (value != C3f(0.0f) && !_world.scene.occluded(hit.leave(light.direction)))
+        mixture.evaluate(to_light, -1, &value, &pdf);
+        if (value != C3f(0.0f) && !_world.scene.occluded(hit.leave(to_light)))
             path.radiance +=
                 path.throughput * value * light.radiance * (mis_weight(light.pdf, pdf) / light.pdf);
     }

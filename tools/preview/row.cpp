@@ -23,7 +23,7 @@ using shaders::SchlickMetal;
 
 namespace {
 
-constexpr float kSpacing = 2.5f;
+constexpr float kSpacing = 2.4f;
 
 }  // namespace
 

@@ -48,24 +48,26 @@ LatLongImage make_studio()
     // Contrast is what makes metal look like metal: a few bright, large shapes on a dim room. The
     // camera looks from +z.
     const SoftBox boxes[] = {
-        {{-0.75f, 0.75f, 0.65f}, 0.55f, 0.42f, 0.06f, C3f(9.5f, 9.3f, 9.0f)},  // key
-        {{1.0f, 0.35f, 0.45f}, 0.22f, 0.75f, 0.05f, C3f(3.0f, 3.15f, 3.4f)},   // fill
-        {{0.1f, 1.0f, -0.45f}, 0.90f, 0.35f, 0.06f, C3f(5.0f, 5.0f, 5.0f)},    // top
-        {{0.75f, 0.50f, -0.9f}, 0.18f, 0.60f, 0.04f, C3f(6.0f, 6.2f, 6.5f)},   // rim
-        {{-1.0f, 0.22f, -0.35f}, 0.14f, 0.55f, 0.04f, C3f(4.0f, 4.0f, 4.0f)},  // edge
+        {{-0.75f, 0.75f, 0.65f}, 0.55f, 0.42f, 0.06f, C3f(5.2f, 5.1f, 4.9f)},  // key
+        {{1.0f, 0.35f, 0.45f}, 0.22f, 0.75f, 0.05f, C3f(1.7f, 1.8f, 1.95f)},   // fill
+        {{0.1f, 1.0f, -0.45f}, 0.90f, 0.35f, 0.06f, C3f(2.4f, 2.4f, 2.4f)},    // top
+        {{0.75f, 0.50f, -0.9f}, 0.18f, 0.60f, 0.04f, C3f(3.6f, 3.7f, 3.9f)},   // rim
+        {{-1.0f, 0.22f, -0.35f}, 0.14f, 0.55f, 0.04f, C3f(2.4f, 2.4f, 2.4f)},  // edge
     };
 
     LatLongImage image;
-    image.width = 1024;
-    image.height = 512;
-    image.pixels.reserve(1024 * 512);
+    image.width = 512;
+    image.height = 256;
+    image.pixels.reserve(512 * 256);
     for (int row = 0; row < image.height; ++row)
         for (int column = 0; column < image.width; ++column)
         {
-            const V3f d = latlong_direction((static_cast<float>(column) + 0.5f) / 1024.0f,
-                                            (static_cast<float>(row) + 0.5f) / 512.0f);
-            const float up = 0.5f + 0.5f * d.y;
-            C3f c = C3f(0.16f, 0.165f, 0.175f) + C3f(0.22f, 0.22f, 0.23f) * (up * up);
+            const V3f d = latlong_direction((static_cast<float>(column) + 0.5f) / 512.0f,
+                                            (static_cast<float>(row) + 0.5f) / 256.0f);
+            const float up = std::max(d.y, 0.0f);
+            C3f c = C3f(0.10f, 0.105f, 0.115f) + C3f(0.12f, 0.12f, 0.125f) * (up * up);
+            // The floor hides what is below the horizon: light there would only cost samples.
+            c *= smooth_step(1.0f + 10.0f * d.y);
             for (const SoftBox& box : boxes)
             {
                 const float k = coverage(box, d);

@@ -5,7 +5,7 @@
 #
 # regain_embed_text(TARGET FUNCTION file ...) adds to TARGET a source that defines
 #     std::string_view FUNCTION(std::string_view name)
-# in namespace regain::detail: the text of the file of that name (without its folder), or an empty
+# in namespace regain::embedded: the text of the file of that name (without its folder), or an empty
 # view. The source is written at build time by this same file, run as a script.
 
 if(CMAKE_SCRIPT_MODE_FILE)
@@ -23,10 +23,10 @@ if(CMAKE_SCRIPT_MODE_FILE)
   file(WRITE "${OUTPUT}"
     "// Written by cmake/EmbedText.cmake.\n\n"
     "#include <regain/closures/version.h>\n\n#include <string_view>\n\n"
-    "REGAIN_NAMESPACE_BEGIN\nnamespace detail {\n\n"
+    "REGAIN_NAMESPACE_BEGIN\nnamespace embedded {\n\n"
     "std::string_view ${FUNCTION}(std::string_view name);\n"
     "std::string_view ${FUNCTION}(std::string_view name)\n{\n${body}    return {};\n}\n\n"
-    "}  // namespace detail\nREGAIN_NAMESPACE_END\n")
+    "}  // namespace embedded\nREGAIN_NAMESPACE_END\n")
   return()
 endif()
 

@@ -38,6 +38,7 @@ function(regain_library name)
     $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_link_libraries(${target} ${scope} ${arg_LINK})
+  set_property(GLOBAL APPEND PROPERTY REGAIN_PARTS ${name})
   if(REGAIN_INSTALL)
     install(TARGETS ${target} EXPORT RegainTargets
       LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}

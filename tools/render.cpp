@@ -187,7 +187,7 @@ struct Row
         std::vector<shaders::SchlickMetal> all{floor_material()};
         const C3f F0(plan.metal.F0), F82(plan.metal.F82);
         for (const float alpha : plan.alphas)
-            all.push_back(shaders::SchlickMetal{F0, F82, alpha, alpha, method, 1.0f});
+            all.push_back(shaders::SchlickMetal{F0, F82, alpha, alpha, method});
         return all;
     }
 

@@ -26,9 +26,8 @@ void replace_file(const fs::path& target, const std::function<void(const fs::pat
     if (fs::is_directory(target, ec)) fail("it is a folder");
     if (::access(folder.c_str(), W_OK) != 0) fail("the folder is not writable");
 
-    const fs::path temporary =
-        folder / (target.stem().string() + ".part" + std::to_string(::getpid()) +
-                  target.extension().string());
+    const fs::path temporary = folder / (target.stem().string() + ".part" +
+                                         std::to_string(::getpid()) + target.extension().string());
     try
     {
         write(temporary);

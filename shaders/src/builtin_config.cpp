@@ -8,7 +8,7 @@
 namespace OCIO = OCIO_NAMESPACE;
 
 REGAIN_NAMESPACE_BEGIN
-namespace detail {
+namespace shaders::detail {
 
 namespace {
 
@@ -172,5 +172,5 @@ OCIO::ConstConfigRcPtr make_builtin_config()
     return config;
 }
 
-}  // namespace detail
+}  // namespace shaders::detail
 REGAIN_NAMESPACE_END

@@ -8,10 +8,10 @@
 #include <OpenColorIO/OpenColorIO.h>
 
 REGAIN_NAMESPACE_BEGIN
-namespace detail {
+namespace shaders::detail {
 
 /// Regain's own config, made anew from transforms that OpenColorIO has had since 2.1.
 OCIO_NAMESPACE::ConstConfigRcPtr make_builtin_config();
 
-}  // namespace detail
+}  // namespace shaders::detail
 REGAIN_NAMESPACE_END

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright Contributors to the Regain project
 
-#include "conductor_reflectance.h"
 #include "names.h"
-#include "table.h"
+#include "spectral_table.h"
 
+#include <regain/closures/conductor_fresnel.h>
+#include <regain/closures/schlick_fresnel.h>
 #include <regain/shaders/metals.h>
 #include <regain/shaders/spectrum.h>
 #include <regain/shaders/white_adaptation.h>
@@ -23,17 +24,17 @@ struct Metal
 {
     const char* name;
     std::vector<const char*> aliases;
-    detail::Table table;  // n, k
+    detail::SpectralTable table;  // n, k
 };
 
 const std::array<Metal, 5>& metals()
 {
     static const std::array<Metal, 5> once{
-        Metal{"aluminium", {"aluminum", "Al"}, detail::Table("Al.csv")},
-        Metal{"brass", {"Cu70Zn30"}, detail::Table("Cu70Zn30.csv")},
-        Metal{"copper", {"Cu"}, detail::Table("Cu.csv")},
-        Metal{"gold", {"Au"}, detail::Table("Au.csv")},
-        Metal{"silver", {"Ag"}, detail::Table("Ag.csv")}};
+        Metal{"aluminium", {"aluminum", "Al"}, detail::SpectralTable("Al.csv")},
+        Metal{"brass", {"Cu70Zn30"}, detail::SpectralTable("Cu70Zn30.csv")},
+        Metal{"copper", {"Cu"}, detail::SpectralTable("Cu.csv")},
+        Metal{"gold", {"Au"}, detail::SpectralTable("Au.csv")},
+        Metal{"silver", {"Ag"}, detail::SpectralTable("Ag.csv")}};
     return once;
 }
 
@@ -51,6 +52,11 @@ double checked_cosine(double cos_theta)
 {
     if (std::isnan(cos_theta)) throw std::invalid_argument("the cosine of the angle is NaN");
     return std::clamp(cos_theta, 0.0, 1.0);
+}
+
+double conductor_reflectance(double mu, double n, double k)
+{
+    return ConductorFresnel<double>(C3d(n), C3d(k)).at(mu).x;
 }
 
 // The colour of a metal in a working space. The way there is linear in the reflectance, so it is
@@ -84,7 +90,7 @@ public:
     {
         C3d color(0.0);
         for (std::size_t i = 0; i < count; ++i)
-            color += _weight[i] * detail::conductor_reflectance(mu, _n[i], _k[i]);
+            color += _weight[i] * conductor_reflectance(mu, _n[i], _k[i]);
         return color;
     }
 
@@ -109,8 +115,8 @@ double metal_reflectance(const std::string& name, double cos_theta, double wavel
 {
     if (std::isnan(wavelength)) throw std::invalid_argument("the wavelength is NaN");
     const Metal& metal = find_metal(name);
-    return detail::conductor_reflectance(checked_cosine(cos_theta), metal.table.at(0, wavelength),
-                                         metal.table.at(1, wavelength));
+    return conductor_reflectance(checked_cosine(cos_theta), metal.table.at(0, wavelength),
+                                 metal.table.at(1, wavelength));
 }
 
 C3d metal_reflectance(const std::string& name, double cos_theta, const ColorConfig& config)
@@ -146,28 +152,28 @@ MetalColor metal_color(const std::string& name, const ColorConfig& config)
     for (int c = 0; c < 3; ++c)
     {
         // F = schlick - b dip is linear in b.
-        const double F0 = metal.F0[c];
         double product = 0, square = 0;
         for (std::size_t i = 0; i < steps; ++i)
         {
             const double d = dip(cosine[i]);
-            product += (schlick(F0, cosine[i]) - curve[i][c]) * d;
+            product += (schlick(metal.F0[c], cosine[i]) - curve[i][c]) * d;
             square += d * d;
         }
-        const double b_of_black = schlick(F0, 1.0 / 7) / dip(1.0 / 7);
+        const double b_of_black = schlick(metal.F0[c], 1.0 / 7) / dip(1.0 / 7);
         const double best = 1 - product / square / b_of_black;
         metal.F82[c] = std::clamp(best, 0.0, 1.0);
         metal.F82_limited |= metal.F82[c] != best;
-
-        const double b = b_of_black * (1 - metal.F82[c]);
-        double error = 0;
-        for (std::size_t i = 0; i < steps; ++i)
-        {
-            const double F = schlick(F0, cosine[i]) - b * dip(cosine[i]);
-            error += (F - curve[i][c]) * (F - curve[i][c]) / steps;
-        }
-        metal.fit_error = std::max(metal.fit_error, std::sqrt(error));
     }
+
+    const SchlickFresnel<double> fitted(metal.F0, metal.F82);
+    C3d square_error(0.0);
+    for (std::size_t i = 0; i < steps; ++i)
+    {
+        const C3d error = fitted.at(cosine[i]) - curve[i];
+        square_error += error * error / steps;
+    }
+    for (int c = 0; c < 3; ++c)
+        metal.fit_error = std::max(metal.fit_error, std::sqrt(square_error[c]));
     return metal;
 }
 

@@ -15,7 +15,7 @@
 #include <vector>
 
 REGAIN_NAMESPACE_BEGIN
-namespace detail {
+namespace shaders::detail {
 
 /// True if both are the same but for the case of ASCII letters.
 inline bool same_letters(std::string_view a, std::string_view b)
@@ -33,5 +33,5 @@ inline std::string listed(const std::vector<std::string>& names)
     return list.empty() ? "none" : list;
 }
 
-}  // namespace detail
+}  // namespace shaders::detail
 REGAIN_NAMESPACE_END

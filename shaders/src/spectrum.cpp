@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright Contributors to the Regain project
 
-#include "table.h"
+#include "spectral_table.h"
 
 #include <regain/shaders/spectrum.h>
 #include <regain/shaders/white_adaptation.h>
@@ -18,7 +18,7 @@ using Weights = std::array<C3d, wavelength_count>;
 
 Weights adapted_weights()
 {
-    const detail::Table observer("cie1931_2deg_1nm.csv"), illuminant("illuminant_d65.csv");
+    const detail::SpectralTable observer("cie1931_2deg_1nm.csv"), illuminant("illuminant_d65.csv");
 
     Weights weights;
     C3d white(0.0);

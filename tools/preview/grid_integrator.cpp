@@ -160,12 +160,14 @@ void GridIntegrator::shade(const GridMaterial& material, Path* const* paths, int
                                                            material.instance_data);
     if (!bxdf) throw std::bad_alloc();
 
-    // Which side of the surface a direction leaves on, seen from the viewer.
+    const auto is_reflection = [&](int i, const V3f& direction) {
+        return direction.dot(w.geometric_normal[i]) * w.view[i].dot(w.geometric_normal[i]) > 0.0f;
+    };
+    // Whether evaluating towards a direction can give anything.
     const renderman::Domain domain = bxdf->evaluateDomain();
     const auto in_domain = [&](int i, const V3f& direction) {
-        const float view_side = w.view[i].dot(w.geometric_normal[i]);
-        const float side = direction.dot(w.geometric_normal[i]);
-        const bool outside = view_side > 0.0f, reflect = (side > 0.0f) == outside;
+        const bool outside = w.view[i].dot(w.geometric_normal[i]) > 0.0f;
+        const bool reflect = is_reflection(i, direction);
         const unsigned place =
             outside ? (reflect ? renderman::kOutsideReflect : renderman::kOutsideTransmit)
                     : (reflect ? renderman::kInsideReflect : renderman::kInsideTransmit);
@@ -207,7 +209,10 @@ void GridIntegrator::shade(const GridMaterial& material, Path* const* paths, int
     for (int i = 0; i < n; ++i)
     {
         Path& path = *paths[i];
-        if (!w.sampled[i].valid || !(w.forward_pdf[i] > 0.0f) || !in_domain(i, w.direction[i]))
+        // A lobe that scatters to the wrong side of the true surface does so only because normals
+        // are interpolated.
+        if (!w.sampled[i].valid || !(w.forward_pdf[i] > 0.0f) ||
+            is_reflection(i, w.direction[i]) != w.sampled[i].reflect)
         {
             path.throughput = C3f(0.0f);
             continue;

@@ -57,7 +57,7 @@ Camera RowScene::camera(float aspect) const
 
 SchlickMetal floor_material()
 {
-    return SchlickMetal{C3f(0.3f), C3f(1.0f), 1.0f, 1.0f, Method::turquin, 1.0f};
+    return SchlickMetal{C3f(0.3f), C3f(1.0f), 1.0f, 1.0f, Method::turquin};
 }
 
 struct RowIntegrator::Binding

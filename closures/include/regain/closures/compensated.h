@@ -100,7 +100,8 @@ public:
     {
         return prepare(wo).sample(u);
     }
-    Real pdf(const Vec3<Real>& wo, const Vec3<Real>& wi) const { return prepare(wo).pdf(wi); }
+    // No gain enters a pdf, so none is looked up for it.
+    Real pdf(const Vec3<Real>& wo, const Vec3<Real>& wi) const { return _lobe.pdf(wo, wi); }
     Albedo<Real> albedo(const Vec3<Real>& wo) const { return prepare(wo).albedo(); }
 
 private:
@@ -129,19 +130,22 @@ Compensated<Lobe, Gain> compensated(const Lobe& lobe, const Gain& gain)
 /// A gain taken at the other end. On a path that carries importance the eye is on the side of wi,
 /// and f(wo, wi) of a gain that is not reciprocal has to be what the eye's path would see: f(wi,
 /// wo).
-template <class Gain>
+template <class Gain, class Real>
 class ReversedGain
 {
 public:
-    using Real = typename Gain::Real;
     static constexpr bool depends_on_wi = true;
-    static_assert(!detail::GainDependsOnWi<Gain>::value,
-                  "only a gain of one direction can be turned");
 
     explicit ReversedGain(const Gain& gain) : _gain(gain) {}
 
     Color3<Real> at(const Vec3<Real>&) const { return Color3<Real>(Real(1)); }
-    Color3<Real> pair(const Vec3<Real>&, const Vec3<Real>& wi) const { return _gain.at(wi); }
+    Color3<Real> pair(const Vec3<Real>& wo, const Vec3<Real>& wi) const
+    {
+        if constexpr (detail::GainDependsOnWi<Gain>::value)
+            return _gain.at(wi) * _gain.pair(wi, wo);
+        else
+            return (void)wo, _gain.at(wi);
+    }
 
 private:
     Gain _gain;
@@ -149,9 +153,10 @@ private:
 
 /// f*(wo, wi) = f(wi, wo) of a compensated reciprocal lobe, with directions and pdfs still its own.
 template <class Lobe, class Gain>
-Compensated<Lobe, ReversedGain<Gain>> reversed(const Compensated<Lobe, Gain>& closure)
+Compensated<Lobe, ReversedGain<Gain, typename Lobe::Real>> reversed(
+    const Compensated<Lobe, Gain>& closure)
 {
-    return {closure.lobe(), ReversedGain<Gain>(closure.gain())};
+    return {closure.lobe(), ReversedGain<Gain, typename Lobe::Real>(closure.gain())};
 }
 
 REGAIN_NAMESPACE_END

@@ -90,7 +90,8 @@ public:
     Color at(const Vec3<Real>& wo) const
     {
         if (!_bound) return Color(Real(1));
-        const Real E = _E_ss.at(stretched_cosine(detail::saturate(wo.z), _alpha), _sqrt_alpha);
+        const Real E = detail::min(
+            _E_ss.at(stretched_cosine(detail::saturate(wo.z), _alpha), _sqrt_alpha), Real(1));
         return Color(Real(1)) + _F_ms * ((Real(1) - E) / E);
     }
 

@@ -106,7 +106,7 @@ public:
 
         Albedo<Real> albedo() const
         {
-            if (_lobe._tables.E_ss && _lobe._tables.fresnel_shift)
+            if (_lobe._tables.E_ss && _lobe._tables.fresnel_blend)
                 return {tabulated_albedo(), Color(Real(0))};
             return {integrated_albedo(), Color(Real(0))};
         }
@@ -148,10 +148,12 @@ public:
         {
             const Real alpha = _lobe._distribution.effective_alpha(), mu = _wo.z;
             const Real x = stretched_cosine(mu, alpha), y = detail::sqrt(alpha);
-            const Real E = detail::select(_delta, Real(1), _lobe._tables.E_ss.at(x, y));
-            const Real shift =
-                detail::select(_delta, Real(0), _lobe._tables.fresnel_shift.at(x, y));
-            return _lobe._fresnel.at(detail::saturate(mu + shift)) * _weight * E;
+            const Real E =
+                detail::select(_delta, Real(1), detail::min(_lobe._tables.E_ss.at(x, y), Real(1)));
+            const Real c = Real(1) - mu, c2 = c * c, falloff = c2 * c2 * c;
+            const Real mean = detail::saturate(falloff + _lobe._tables.fresnel_blend.at(x, y));
+            const Real cos_mean = Real(1) - detail::pow(mean, detail::constant<Real>(0.2));
+            return _lobe._fresnel.at(detail::select(_delta, mu, cos_mean)) * _weight * E;
         }
 
         // The mean weight over a grid of random numbers.

@@ -89,11 +89,11 @@ private:
 /// What is tabulated of one distribution. A view that is empty is a table nobody needs.
 struct MicrofacetTables
 {
-    TableView E_ss;   ///< single-scattering albedo with F = 1, over (x, y)
+    TableView E_ss;   ///< single-scattering albedo with F = 1, over (x, y); limit look-ups to 1
     TableView E_avg;  ///< 2 int_0^1 E_ss mu dmu, over y
-    /// Over (x, y): the cosine at which a Fresnel term has about its mean over all that is
-    /// scattered once, less mu. With it the single-scattering albedo is F(mu + shift) E_ss.
-    TableView fresnel_shift;
+    /// Over (x, y): the mean of (1 - wo.m)^5 over all that is scattered once, less (1 - mu)^5. It
+    /// says at which cosine a Fresnel term has about its mean: exactly, for Schlick's.
+    TableView fresnel_blend;
 };
 
 REGAIN_NAMESPACE_END

@@ -8,7 +8,7 @@
 ///   (X, Y, Z) = sum R S (xbar, ybar, zbar) / sum R=1: S ybar     over 380, 381, ... 780 nm
 ///
 /// S, tabulated each 5 nm, is interpolated linearly to the observer's 1 nm. What lies outside 380
-/// to 780 nm is left out: it holds 3e-5 of Y.
+/// to 780 nm is left out: it holds 3e-6 of Y.
 
 #pragma once
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright Contributors to the Regain project
 
-#include "table.h"
+#include "spectral_table.h"
 
 #include <algorithm>
 #include <iterator>
@@ -10,15 +10,15 @@
 #include <stdexcept>
 
 REGAIN_NAMESPACE_BEGIN
-namespace detail {
+namespace shaders::detail {
 
-Table::Table(std::string_view name)
+SpectralTable::SpectralTable(std::string_view name)
 {
     const auto fail = [&](const std::string& why) {
         throw std::logic_error("compiled-in table '" + std::string(name) + "': " + why);
     };
 
-    std::istringstream lines{std::string(colour_data(name))};
+    std::istringstream lines{std::string(embedded::colour_data(name))};
     bool named = false;
     for (std::string line; std::getline(lines, line);)
     {
@@ -51,7 +51,7 @@ Table::Table(std::string_view name)
     if (_wavelengths.empty()) fail("no values");
 }
 
-double Table::at(std::size_t column, double wavelength) const
+double SpectralTable::at(std::size_t column, double wavelength) const
 {
     const auto& values = _columns.at(column);
     const auto above = std::upper_bound(_wavelengths.begin(), _wavelengths.end(), wavelength);
@@ -62,5 +62,5 @@ double Table::at(std::size_t column, double wavelength) const
     return values[i - 1] + t * (values[i] - values[i - 1]);
 }
 
-}  // namespace detail
+}  // namespace shaders::detail
 REGAIN_NAMESPACE_END

@@ -14,18 +14,22 @@
 #include <vector>
 
 REGAIN_NAMESPACE_BEGIN
-namespace detail {
+namespace embedded {
 
 /// The text of a file in shaders/data; empty if there is none of that name.
 std::string_view colour_data(std::string_view name);
 
-class Table
+}  // namespace embedded
+
+namespace shaders::detail {
+
+class SpectralTable
 {
 public:
     /// Reads an embedded file: lines that start with #, a line with the columns' names, then
     /// numbers separated by commas, the first of each line a wavelength in nm, ascending. Throws
     /// std::logic_error if the file is not like that.
-    explicit Table(std::string_view name);
+    explicit SpectralTable(std::string_view name);
 
     /// Column 0, 1, ... after the wavelength; beyond the ends the last value holds.
     double at(std::size_t column, double wavelength) const;
@@ -39,5 +43,5 @@ private:
     std::vector<std::vector<double>> _columns;
 };
 
-}  // namespace detail
+}  // namespace shaders::detail
 REGAIN_NAMESPACE_END

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+#include <regain/luts/exr.h>
+#include <regain/luts/replace_file.h>
+
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfDoubleAttribute.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfIntAttribute.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStringAttribute.h>
+
+#include <cmath>
+#include <stdexcept>
+
+REGAIN_NAMESPACE_BEGIN
+namespace luts {
+namespace {
+
+// No table comes near this; a header that says so is broken, and is not worth the memory.
+constexpr int largest_side = 4096;
+
+void insert(Imf::Header& header, const std::string& name, const std::string& value)
+{
+    header.insert("regain:" + name, Imf::StringAttribute(value));
+}
+void insert(Imf::Header& header, const std::string& name, double value)
+{
+    header.insert("regain:" + name, Imf::DoubleAttribute(value));
+}
+void insert(Imf::Header& header, const std::string& name, int value)
+{
+    header.insert("regain:" + name, Imf::IntAttribute(value));
+}
+
+template <class Attribute, class Value>
+void extract(const Imf::Header& header, const std::string& name, Value& value)
+{
+    const auto* attribute = header.findTypedAttribute<Attribute>("regain:" + name);
+    if (!attribute) throw std::runtime_error("the header has no 'regain:" + name + "'");
+    value = attribute->value();
+}
+void extract(const Imf::Header& header, const std::string& name, std::string& value)
+{
+    extract<Imf::StringAttribute>(header, name, value);
+}
+void extract(const Imf::Header& header, const std::string& name, double& value)
+{
+    extract<Imf::DoubleAttribute>(header, name, value);
+}
+void extract(const Imf::Header& header, const std::string& name, int& value)
+{
+    extract<Imf::IntAttribute>(header, name, value);
+}
+
+// Visits every field of a TableInfo, so that reading and writing cannot disagree.
+template <class Info, class Visit>
+void for_each_field(Info& info, const Visit& visit)
+{
+    visit("quantity", info.quantity);
+    visit("distribution", info.distribution);
+    visit("gamma", info.gamma);
+    visit("axis_x", info.axis_x);
+    visit("axis_y", info.axis_y);
+    visit("method", info.method);
+    visit("nodes", info.nodes);
+    visit("error", info.error);
+    visit("error_kind", info.error_kind);
+    visit("definition", info.definition);
+    visit("offset", info.offset);
+    visit("scale", info.scale);
+}
+
+Table read(const std::filesystem::path& file)
+{
+    Imf::InputFile in(file.string().c_str());
+    const Imf::Header& header = in.header();
+
+    TableInfo info;
+    for_each_field(info, [&](const char* name, auto& value) { extract(header, name, value); });
+    if (info.definition != table_definition)
+        throw std::runtime_error("it was baked by definition " + std::to_string(info.definition) +
+                                 ", this library reads definition " +
+                                 std::to_string(table_definition) + ": bake it again");
+    if (!(std::isfinite(info.offset) && std::isfinite(info.scale) && info.scale > 0))
+        throw std::runtime_error("its scale and offset are no usable numbers");
+
+    const Imath::Box2i window = header.dataWindow();
+    const Imath::V2i size = window.max - window.min + Imath::V2i(1);
+    if (size.x < 2 || size.y < 1 || size.x > largest_side || size.y > largest_side)
+        throw std::runtime_error("it has " + std::to_string(size.x) + " x " +
+                                 std::to_string(size.y) + " nodes; 2 x 1 to " +
+                                 std::to_string(largest_side) + " a side are accepted");
+    const Imf::Channel* channel = header.channels().findChannel("Y");
+    if (!channel || channel->type != Imf::FLOAT)
+        throw std::runtime_error("it has no float channel 'Y'");
+
+    std::vector<float> values(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
+    Imf::FrameBuffer frame;
+    frame.insert("Y", Imf::Slice::Make(Imf::FLOAT, values.data(), window));
+    in.setFrameBuffer(frame);
+    in.readPixels(window.min.y, window.max.y);
+    for (float v : values)
+        if (!std::isfinite(v)) throw std::runtime_error("it holds a number that is not finite");
+    return Table(info, size.x, size.y, std::move(values));
+}
+
+}  // namespace
+
+void write_table(const std::filesystem::path& file, const Table& table)
+{
+    replace_file(file, [&](const std::filesystem::path& temporary) {
+        Imf::Header header(table.width(), table.height());
+        header.channels().insert("Y", Imf::Channel(Imf::FLOAT));
+        for_each_field(table.info(),
+                       [&](const char* name, const auto& value) { insert(header, name, value); });
+
+        Imf::FrameBuffer frame;
+        frame.insert("Y", Imf::Slice::Make(Imf::FLOAT, table.values().data(), header.dataWindow()));
+        Imf::OutputFile out(temporary.string().c_str(), header);
+        out.setFrameBuffer(frame);
+        out.writePixels(table.height());
+    });
+}
+
+Table read_table(const std::filesystem::path& file)
+{
+    try
+    {
+        return read(file);
+    }
+    catch (const std::exception& e)
+    {
+        throw std::runtime_error("cannot use table '" + file.string() + "': " + e.what());
+    }
+}
+
+}  // namespace luts
+REGAIN_NAMESPACE_END

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+#include <regain/luts/table.h>
+
+#include <cmath>
+#include <stdexcept>
+
+REGAIN_NAMESPACE_BEGIN
+namespace luts {
+
+Table::Table(TableInfo info, int width, int height, std::vector<float> values)
+    : _info(std::move(info)), _width(width), _height(height), _values(std::move(values))
+{
+    if (width < 2 || height < 1 ||
+        _values.size() != static_cast<std::size_t>(width) * static_cast<std::size_t>(height))
+        throw std::invalid_argument("table " + name() + ": " + std::to_string(_values.size()) +
+                                    " values do not fill " + std::to_string(width) + " x " +
+                                    std::to_string(height) + " nodes (at least 2 x 1)");
+    _stored.reserve(_values.size());
+    for (float v : _values)
+    {
+        const double s = std::round((static_cast<double>(v) - _info.offset) / _info.scale);
+        if (!(s >= 0 && s <= 65535))
+            throw std::invalid_argument("table " + name() + ": value " + std::to_string(v) +
+                                        " is outside the range of its 16-bit form, " +
+                                        std::to_string(_info.offset) + " to " +
+                                        std::to_string(_info.offset + 65535 * _info.scale));
+        _stored.push_back(static_cast<std::uint16_t>(s));
+    }
+}
+
+TableView Table::view() const
+{
+    TableView v;
+    v.data = _stored.data();
+    v.width = _width;
+    v.height = _height;
+    v.offset = static_cast<float>(_info.offset);
+    v.scale = static_cast<float>(_info.scale);
+    return v;
+}
+
+}  // namespace luts
+REGAIN_NAMESPACE_END

@@ -248,9 +248,10 @@ int render_command(const Options& options)
     job.samples = static_cast<int>(options.samples);
     job.threads = static_cast<int>(options.threads);
 
+    // Held until the files are written: Ctrl-C then does not leave half a picture.
+    const InterruptGuard interrupt;
     bool whole = false;
     {
-        const InterruptGuard interrupt;
         Progress progress("render", total_samples(job), Progress::style(options.quiet));
         job.stop = &interrupt.flag();
         job.progress = &progress;

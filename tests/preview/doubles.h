@@ -170,6 +170,23 @@ inline LatLongImage constant_image(float value)
     return image;
 }
 
+/// A unit sphere alone (material 0) in front of the camera.
+struct SphereWorld
+{
+    SphereWorld(LatLongImage light, int size)
+        : environment(std::move(light)), world{scene, environment, camera, size, size}
+    {
+        Mesh sphere;
+        add_sphere(sphere, V3f(0.0f), 1.0f, 256);
+        scene.place(scene.add_mesh(std::move(sphere)), V3f(0.0f), 0);
+        scene.commit();
+    }
+    Scene scene;
+    Environment environment;
+    Camera camera{V3f(0, 0, 10), V3f(0.0f), 1.1f, 1.1f};
+    World world;
+};
+
 /// One widget (material 1) on a floor (material 0).
 struct WidgetWorld
 {

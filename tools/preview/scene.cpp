@@ -102,6 +102,7 @@ int Scene::add_mesh(Mesh m)
 
     RTCScene scene = rtcNewScene(_impl->device);
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
     rtcAttachGeometry(scene, geometry);
     rtcReleaseGeometry(geometry);
     rtcCommitScene(scene);

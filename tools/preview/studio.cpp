@@ -48,11 +48,11 @@ LatLongImage make_studio()
     // Contrast is what makes metal look like metal: a few bright, large shapes on a dim room. The
     // camera looks from +z.
     const SoftBox boxes[] = {
-        {{-0.75f, 0.75f, 0.65f}, 0.55f, 0.42f, 0.06f, C3f(5.2f, 5.1f, 4.9f)},  // key
-        {{1.0f, 0.35f, 0.45f}, 0.22f, 0.75f, 0.05f, C3f(1.7f, 1.8f, 1.95f)},   // fill
-        {{0.1f, 1.0f, -0.45f}, 0.90f, 0.35f, 0.06f, C3f(2.4f, 2.4f, 2.4f)},    // top
-        {{0.75f, 0.50f, -0.9f}, 0.18f, 0.60f, 0.04f, C3f(3.6f, 3.7f, 3.9f)},   // rim
-        {{-1.0f, 0.22f, -0.35f}, 0.14f, 0.55f, 0.04f, C3f(2.4f, 2.4f, 2.4f)},  // edge
+        {{-0.75f, 0.75f, 0.65f}, 0.55f, 0.42f, 0.06f, C3f(6.2f, 6.05f, 5.8f)},  // key
+        {{1.0f, 0.35f, 0.45f}, 0.22f, 0.75f, 0.05f, C3f(2.0f, 2.1f, 2.3f)},     // fill
+        {{0.1f, 1.0f, -0.45f}, 0.90f, 0.35f, 0.06f, C3f(2.4f, 2.4f, 2.4f)},     // top
+        {{0.75f, 0.50f, -0.9f}, 0.18f, 0.60f, 0.04f, C3f(4.6f, 4.7f, 4.9f)},    // rim
+        {{-1.0f, 0.22f, -0.35f}, 0.14f, 0.55f, 0.04f, C3f(2.4f, 2.4f, 2.4f)},   // edge
     };
 
     LatLongImage image;

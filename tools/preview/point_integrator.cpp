@@ -143,7 +143,7 @@ bool PointIntegrator::bounce(PathState& path, const Hit& hit, const Sampler& sam
     workspace.pad.reset();
     Mixture mixture;
     if (!bound.material.callbacks->create_lobes(bound.data, point, workspace.pad, mixture.lobes))
-        throw std::bad_alloc();
+        throw std::runtime_error("a material's lobes do not fit into the scratchpad");
     mixture.choose_probabilities(view);
 
     // A lobe's event says on which side of the true surface it may scatter. Reflection to behind

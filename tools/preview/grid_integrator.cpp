@@ -127,8 +127,7 @@ void GridIntegrator::render(const Tile& tile, int first, int count, Film& film) 
                 for (int i = 0; i < n; ++i)
                 {
                     Path* path = group[begin + static_cast<std::size_t>(i)];
-                    if (max_channel(path->throughput) > 0.0f &&
-                        survives(*path, bounce, path->sampler))
+                    if (path->throughput != C3f(0.0f) && survives(*path, bounce, path->sampler))
                         alive.push_back(path);
                 }
             }
@@ -218,19 +217,23 @@ void GridIntegrator::scatter(renderman::Bxdf& bxdf, Path* const* paths, int n, i
     {
         Path& path = *paths[i];
         const renderman::Lobe& lobe = w.sampled[i];
-        bool goes_on = lobe.valid && w.forward_pdf[i] > 0.0f;
+        const V3f& direction = w.direction[i];
+        const float pdf = w.forward_pdf[i];
+        const bool faulty = lobe.valid && !(is_finite(direction) && std::isfinite(pdf));
+        if (faulty) mark_faulty(path);
         // A lobe that scatters to the wrong side of the true surface does so only because normals
         // are interpolated.
-        if (goes_on)
-            goes_on = ((w.place(i, w.direction[i]) & renderman::kReflect) != 0) == lobe.reflect;
-        if (!goes_on)
+        const auto right_side = [&] {
+            return ((w.place(i, direction) & renderman::kReflect) != 0) == lobe.reflect;
+        };
+        if (faulty || !lobe.valid || !(pdf > 0.0f) || !right_side())
         {
             path.throughput = C3f(0.0f);
             continue;
         }
-        path.throughput *= weights.total(i) / w.forward_pdf[i];
-        path.ray = path.hit.leave(w.direction[i]);
-        path.pdf = w.forward_pdf[i];
+        path.throughput *= weights.total(i) / pdf;
+        path.ray = path.hit.leave(direction);
+        path.pdf = pdf;
         path.alone = lobe.discrete;
     }
 }

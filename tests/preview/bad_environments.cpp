@@ -9,6 +9,7 @@
 
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <fstream>
 #include <limits>
@@ -23,10 +24,8 @@ protected:
     void SetUp() override
     {
         const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-        folder =
-            fs::temp_directory_path() /
-            (std::string("regain_environments_") + info->name() + "_" +
-             std::to_string(static_cast<long>(::testing::UnitTest::GetInstance()->random_seed())));
+        folder = fs::temp_directory_path() /
+                 ("regain_environments_" + std::to_string(::getpid()) + "_" + info->name());
         fs::create_directories(folder);
     }
     void TearDown() override { fs::remove_all(folder); }

@@ -156,7 +156,14 @@ TEST_F(RenderCommand, RefusesBadInputBeforeItStarts)
 TEST_F(RenderCommand, InterruptLeavesAMarkedPicture)
 {
     std::thread user([] {
-        std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+        // Not before the command listens: the default action would end this program.
+        struct sigaction now = {};
+        do
+        {
+            std::this_thread::sleep_for(std::chrono::milliseconds(300));
+            ::sigaction(SIGINT, nullptr, &now);
+        } while (now.sa_handler == SIG_DFL);
+        std::this_thread::sleep_for(std::chrono::milliseconds(300));
         ::kill(::getpid(), SIGINT);
     });
     const int exit_code = run({"-o", file("stopped.exr"), "--size", "64x48", "--spp", "65536"});

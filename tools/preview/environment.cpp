@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace regain::tools::preview {
 
@@ -72,7 +73,9 @@ V2f latlong_point(const V3f& d)
 {
     const float longitude = std::atan2(d.x, d.z);
     const float theta = std::acos(std::clamp(d.y, -1.0f, 1.0f));
-    return {0.5f * (1.0f - longitude / static_cast<float>(kPi)), theta / static_cast<float>(kPi)};
+    const float pi = static_cast<float>(kPi);
+    return {std::clamp(0.5f * (1.0f - longitude / pi), 0.0f, 1.0f),
+            std::clamp(theta / pi, 0.0f, 1.0f)};
 }
 
 Environment::Environment(LatLongImage image) : _image(std::move(image))
@@ -152,6 +155,8 @@ Environment::Sample Environment::sample(const V2f& u) const
 Environment::Light Environment::at(const V3f& direction) const
 {
     const V2f p = latlong_point(direction);
+    if (!(p.x >= 0.0f && p.x <= 1.0f && p.y >= 0.0f && p.y <= 1.0f))
+        return {C3f(std::numeric_limits<float>::quiet_NaN()), 0.0f};
     const float x = p.x * static_cast<float>(_image.width);
     const float y = p.y * static_cast<float>(_image.height);
     const int column = std::clamp(static_cast<int>(x), 0, _image.width - 1);

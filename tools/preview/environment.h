@@ -52,6 +52,7 @@ public:
     };
 
     Sample sample(const Imath::V2f& u) const;
+    /// Radiance that is not a number for a direction that is none.
     Light at(const Imath::V3f& direction) const;
 
 private:

@@ -5,6 +5,7 @@
 
 #include "arena.h"
 
+#include <stdexcept>
 #include <utility>
 
 namespace regain::tools::preview {
@@ -68,6 +69,15 @@ struct GridIntegrator::Workspace
     renderman::Lobe sampled[kBatch];
     C3f weights[static_cast<std::size_t>(renderman::kMaxActive) * kBatch];
     float forward_pdf[kBatch], reverse_pdf[kBatch];
+
+    /// Where `to` lies as seen from the viewer of point i, by the geometric normal.
+    renderman::Domain place(int i, const V3f& to) const
+    {
+        const bool outside = view[i].dot(geometric_normal[i]) > 0.0f;
+        const bool reflect = (to.dot(geometric_normal[i]) > 0.0f) == outside;
+        if (outside) return reflect ? renderman::kOutsideReflect : renderman::kOutsideTransmit;
+        return reflect ? renderman::kInsideReflect : renderman::kInsideTransmit;
+    }
 };
 
 GridIntegrator::GridIntegrator(const World& world, std::vector<GridMaterial> materials)
@@ -117,8 +127,7 @@ void GridIntegrator::render(const Tile& tile, int first, int count, Film& film) 
                 for (int i = 0; i < n; ++i)
                 {
                     Path* path = group[begin + static_cast<std::size_t>(i)];
-                    if (max_channel(path->throughput) > 0.0f &&
-                        survives(*path, bounce, path->sampler))
+                    if (path->throughput != C3f(0.0f) && survives(*path, bounce, path->sampler))
                         alive.push_back(path);
                 }
             }
@@ -131,7 +140,7 @@ void GridIntegrator::render(const Tile& tile, int first, int count, Film& film) 
             for (int s = 0; s < count; ++s) film.add(x, y, paths[next++].radiance);
 }
 
-/// Adds direct light to each path and gives it its next ray; a throughput of 0 ends a path.
+/// One bounce of paths that are at points of one material.
 void GridIntegrator::shade(const GridMaterial& material, Path* const* paths, int n, int bounce,
                            Workspace& w) const
 {
@@ -144,7 +153,6 @@ void GridIntegrator::shade(const GridMaterial& material, Path* const* paths, int
         w.normal[i] = hit.normal;
         w.geometric_normal[i] = hit.geometric_normal;
         w.tangent[i] = hit.tangent;
-        w.wanted[i] = renderman::LobeSet::all();
     }
 
     renderman::ShadingContext context;
@@ -158,71 +166,76 @@ void GridIntegrator::shade(const GridMaterial& material, Path* const* paths, int
     renderman::Bxdf* bxdf = material.factory->beginScatter(&context, renderman::LobeSet::all(),
                                                            renderman::ShadeMode::Scatter, nullptr,
                                                            material.instance_data);
-    if (!bxdf) throw std::bad_alloc();
+    if (!bxdf) throw std::runtime_error("a material refused to scatter, or its memory is spent");
+    add_direct_light(*bxdf, paths, n, bounce, w);
+    scatter(*bxdf, paths, n, bounce, w);
+    material.factory->endScatter(bxdf);
+}
 
-    const auto is_reflection = [&](int i, const V3f& direction) {
-        return direction.dot(w.geometric_normal[i]) * w.view[i].dot(w.geometric_normal[i]) > 0.0f;
-    };
-    // Whether evaluating towards a direction can give anything.
-    const renderman::Domain domain = bxdf->evaluateDomain();
-    const auto in_domain = [&](int i, const V3f& direction) {
-        const bool outside = w.view[i].dot(w.geometric_normal[i]) > 0.0f;
-        const bool reflect = is_reflection(i, direction);
-        const unsigned place =
-            outside ? (reflect ? renderman::kOutsideReflect : renderman::kOutsideTransmit)
-                    : (reflect ? renderman::kInsideReflect : renderman::kInsideTransmit);
-        return (domain & place) != 0;
-    };
-
-    // Next-event estimation: points without a useful light direction sit the call out.
+/// Next-event estimation: one light sample a point.
+void GridIntegrator::add_direct_light(renderman::Bxdf& bxdf, Path* const* paths, int n, int bounce,
+                                      Workspace& w) const
+{
+    // Points where evaluating cannot give anything sit the call out.
+    const renderman::Domain domain = bxdf.evaluateDomain();
     for (int i = 0; i < n; ++i)
     {
-        const V2f u = paths[i]->sampler.get2D(dimension(Draw::Light, bounce));
-        const Environment::Sample sample = _world.environment.sample(u);
-        w.light[i] = sample.light;
-        w.direction[i] = sample.direction;
-        if (!(w.light[i].pdf > 0.0f) || !in_domain(i, w.direction[i])) w.wanted[i].clear();
-    }
-    {
-        renderman::LobeWeights weights(w.weights, n);
-        w.rng.start(w.samplers, n, dimension(Draw::Evaluate, bounce));
-        bxdf->evaluateSample(renderman::kDirect, w.wanted, &w.rng, w.evaluated, w.direction,
-                             weights, w.forward_pdf, w.reverse_pdf);
-        for (int i = 0; i < n; ++i)
-        {
-            if (!w.wanted[i].any() || !w.evaluated[i].any()) continue;
-            const C3f value = weights.total(i);
-            if (value == C3f(0.0f)) continue;
-            if (_world.scene.occluded(paths[i]->hit.leave(w.direction[i]))) continue;
-            const Environment::Light& light = w.light[i];
-            const float share = mis_weight(light.pdf, w.forward_pdf[i]) / light.pdf;
-            paths[i]->radiance += paths[i]->throughput * value * light.radiance * share;
-        }
+        const auto [direction, light] =
+            _world.environment.sample(paths[i]->sampler.get2D(dimension(Draw::Light, bounce)));
+        w.direction[i] = direction;
+        w.light[i] = light;
+        const bool useful = light.pdf > 0.0f && (domain & w.place(i, direction));
+        w.wanted[i] = useful ? renderman::LobeSet::all() : renderman::LobeSet();
     }
 
-    // The next direction.
+    renderman::LobeWeights weights(w.weights, n);
+    w.rng.start(w.samplers, n, dimension(Draw::Evaluate, bounce));
+    bxdf.evaluateSample(renderman::kDirect, w.wanted, &w.rng, w.evaluated, w.direction, weights,
+                        w.forward_pdf, w.reverse_pdf);
+    for (int i = 0; i < n; ++i)
+    {
+        if (!w.wanted[i].any() || !w.evaluated[i].any()) continue;
+        const C3f value = weights.total(i);
+        if (value == C3f(0.0f)) continue;
+        if (_world.scene.occluded(paths[i]->hit.leave(w.direction[i]))) continue;
+        const Environment::Light& light = w.light[i];
+        const float share = mis_weight(light.pdf, w.forward_pdf[i]) / light.pdf;
+        paths[i]->radiance += paths[i]->throughput * value * light.radiance * share;
+    }
+}
+
+/// The next direction of each path; a throughput of 0 ends it.
+void GridIntegrator::scatter(renderman::Bxdf& bxdf, Path* const* paths, int n, int bounce,
+                             Workspace& w) const
+{
     for (int i = 0; i < n; ++i) w.wanted[i] = renderman::LobeSet::all();
     renderman::LobeWeights weights(w.weights, n);
     w.rng.start(w.samplers, n, dimension(Draw::Scatter, bounce));
-    bxdf->generateSample(renderman::kAnyLighting, w.wanted, &w.rng, w.sampled, w.direction, weights,
-                         w.forward_pdf, w.reverse_pdf, nullptr);
+    bxdf.generateSample(renderman::kAnyLighting, w.wanted, &w.rng, w.sampled, w.direction, weights,
+                        w.forward_pdf, w.reverse_pdf, nullptr);
     for (int i = 0; i < n; ++i)
     {
         Path& path = *paths[i];
+        const renderman::Lobe& lobe = w.sampled[i];
+        const V3f& direction = w.direction[i];
+        const float pdf = w.forward_pdf[i];
+        const bool faulty = lobe.valid && !(is_finite(direction) && std::isfinite(pdf));
+        if (faulty) mark_faulty(path);
         // A lobe that scatters to the wrong side of the true surface does so only because normals
         // are interpolated.
-        if (!w.sampled[i].valid || !(w.forward_pdf[i] > 0.0f) ||
-            is_reflection(i, w.direction[i]) != w.sampled[i].reflect)
+        const auto right_side = [&] {
+            return ((w.place(i, direction) & renderman::kReflect) != 0) == lobe.reflect;
+        };
+        if (faulty || !lobe.valid || !(pdf > 0.0f) || !right_side())
         {
             path.throughput = C3f(0.0f);
             continue;
         }
-        path.throughput *= weights.total(i) / w.forward_pdf[i];
-        path.ray = path.hit.leave(w.direction[i]);
-        path.pdf = w.forward_pdf[i];
-        path.alone = w.sampled[i].discrete;
+        path.throughput *= weights.total(i) / pdf;
+        path.ray = path.hit.leave(direction);
+        path.pdf = pdf;
+        path.alone = lobe.discrete;
     }
-    material.factory->endScatter(bxdf);
 }
 
 }  // namespace regain::tools::preview

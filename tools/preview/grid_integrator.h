@@ -35,6 +35,9 @@ private:
     struct Path;
 
     void shade(const GridMaterial&, Path* const* paths, int n, int bounce, Workspace&) const;
+    void add_direct_light(renderman::Bxdf&, Path* const* paths, int n, int bounce,
+                          Workspace&) const;
+    void scatter(renderman::Bxdf&, Path* const* paths, int n, int bounce, Workspace&) const;
 
     World _world;
     std::vector<GridMaterial> _materials;

@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace regain::tools::preview {
 
@@ -88,6 +89,17 @@ struct PathState
     float pdf = 0.0f;   ///< with which the closure chose `ray`, per steradian
     bool alone = true;  ///< next-event estimation could not have found this light: no weighting
 };
+
+/// For a closure's answer that is no number: the film counts the sample, whatever else it holds.
+inline void mark_faulty(PathState& path)
+{
+    path.radiance = Imath::C3f(std::numeric_limits<float>::quiet_NaN());
+}
+
+inline bool is_finite(const Imath::V3f& v)
+{
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 
 /// Light that the path's ray finds when it leaves the scene.
 inline void add_environment(const Environment& environment, PathState& path)

@@ -9,20 +9,13 @@ namespace regain::tools::preview {
 
 using Imath::V3f;
 
-std::uint32_t Mesh::add(const Vertex& v)
-{
-    positions.push_back(v.position);
-    normals.push_back(v.normal);
-    tangents.push_back(v.tangent);
-    return static_cast<std::uint32_t>(positions.size() - 1);
-}
-
 void add_grid(Mesh& mesh, int rows, int columns, bool wrap,
               const std::function<Vertex(int row, int column)>& vertex)
 {
-    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
     for (int row = 0; row < rows; ++row)
-        for (int column = 0; column < columns; ++column) mesh.add(vertex(row, column));
+        for (int column = 0; column < columns; ++column)
+            mesh.vertices.push_back(vertex(row, column));
 
     const auto at = [&](int row, int column) {
         return first + static_cast<std::uint32_t>(row * columns + column % columns);
@@ -39,9 +32,9 @@ void add_grid(Mesh& mesh, int rows, int columns, bool wrap,
 
 void add_polygon(Mesh& mesh, const std::vector<V3f>& corners, const V3f& normal)
 {
-    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
     const V3f tangent = perpendicular(normal);
-    for (const V3f& corner : corners) mesh.add({corner, normal, tangent});
+    for (const V3f& corner : corners) mesh.vertices.push_back({corner, normal, tangent});
     for (std::uint32_t i = 2; i < corners.size(); ++i)
         mesh.triangles.push_back({first, first + i - 1, first + i});
 }

@@ -25,11 +25,8 @@ struct Vertex
 
 struct Mesh
 {
-    std::vector<Imath::V3f> positions, normals, tangents;
+    std::vector<Vertex> vertices;
     std::vector<std::array<std::uint32_t, 3>> triangles;
-
-    /// Index of the new vertex.
-    std::uint32_t add(const Vertex&);
 };
 
 /// Adds a grid of quads, two triangles each. `wrap` joins the last column to the first. A crease is

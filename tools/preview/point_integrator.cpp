@@ -28,7 +28,8 @@ struct Mixture
     V3f view[LobeList::capacity];           // in each lobe's frame
     float probability[LobeList::capacity];  // of picking it
 
-    void choose_probabilities(const V3f& world_view)
+    /// False when an albedo is no number.
+    bool choose_probabilities(const V3f& world_view)
     {
         float total = 0.0f;
         for (int k = 0; k < lobes.size(); ++k)
@@ -43,6 +44,7 @@ struct Mixture
         }
         for (int k = 0; k < lobes.size(); ++k)
             probability[k] = total > 0.0f ? probability[k] / total : 0.0f;
+        return std::isfinite(total);
     }
 
     /// Value f |cos| and pdf of the whole mixture towards `direction`. Lobe `known`, if any, has
@@ -143,8 +145,12 @@ bool PointIntegrator::bounce(PathState& path, const Hit& hit, const Sampler& sam
     workspace.pad.reset();
     Mixture mixture;
     if (!bound.material.callbacks->create_lobes(bound.data, point, workspace.pad, mixture.lobes))
-        throw std::bad_alloc();
-    mixture.choose_probabilities(view);
+        throw std::runtime_error("a material's lobes do not fit into the scratchpad");
+    if (!mixture.choose_probabilities(view))
+    {
+        mark_faulty(path);
+        return false;
+    }
 
     // A lobe's event says on which side of the true surface it may scatter. Reflection to behind
     // the surface exists only because normals are interpolated.
@@ -191,6 +197,11 @@ bool PointIntegrator::bounce(PathState& path, const Hit& hit, const Sampler& sam
     C3f weight(0.0f);
     const float lobe_pdf =
         entry.lobe->sample(mixture.view[chosen], uv.x, uv.y, w, local, weight, nullptr);
+    if (!std::isfinite(lobe_pdf) || (lobe_pdf > 0.0f && !is_finite(local)))
+    {
+        mark_faulty(path);
+        return false;
+    }
     if (!(lobe_pdf > 0.0f)) return false;
     const V3f direction = to_world(entry, local);
     if (!possible(direction, entry.lobe->label().ev)) return false;
@@ -210,7 +221,7 @@ bool PointIntegrator::bounce(PathState& path, const Hit& hit, const Sampler& sam
         path.alone = false;
     }
     path.ray = hit.leave(direction);
-    return max_channel(path.throughput) > 0.0f;
+    return path.throughput != C3f(0.0f);
 }
 
 }  // namespace regain::tools::preview

@@ -17,9 +17,15 @@ namespace {
 
 constexpr float kOffset = 1e-4f;
 
-V3f blend(const std::vector<V3f>& v, const std::array<std::uint32_t, 3>& t, float b, float c)
+/// The triangle's vertices, interpolated; directions are no longer unit.
+Vertex blend(const Mesh& mesh, const std::array<std::uint32_t, 3>& triangle, float v, float w)
 {
-    return v[t[0]] * (1.0f - b - c) + v[t[1]] * b + v[t[2]] * c;
+    const Vertex &a = mesh.vertices[triangle[0]], &b = mesh.vertices[triangle[1]],
+                 &c = mesh.vertices[triangle[2]];
+    const float u = 1.0f - v - w;
+    return {a.position * u + b.position * v + c.position * w,
+            a.normal * u + b.normal * v + c.normal * w,
+            a.tangent * u + b.tangent * v + c.tangent * w};
 }
 
 RTCRay to_embree(const Ray& ray)
@@ -89,13 +95,13 @@ int Scene::add_mesh(Mesh m)
     RTCGeometry geometry = rtcNewGeometry(_impl->device, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* vertices = static_cast<float*>(
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                3 * sizeof(float), mesh.positions.size()));
+                                3 * sizeof(float), mesh.vertices.size()));
     auto* indices = static_cast<std::uint32_t*>(
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                 3 * sizeof(std::uint32_t), mesh.triangles.size()));
     _impl->check("take a mesh");
-    for (const V3f& p : mesh.positions)
-        for (unsigned k = 0; k < 3; ++k) *vertices++ = p[k];
+    for (const Vertex& v : mesh.vertices)
+        for (int k = 0; k < 3; ++k) *vertices++ = v.position[k];
     for (const auto& triangle : mesh.triangles)
         for (const std::uint32_t index : triangle) *indices++ = index;
     rtcCommitGeometry(geometry);
@@ -144,12 +150,12 @@ bool Scene::intersect(const Ray& ray, Hit* hit) const
     const Impl::Placement& placement = _impl->placements[query.hit.instID[0]];
     const Mesh& mesh = _impl->meshes[static_cast<std::size_t>(placement.mesh)];
     const auto& triangle = mesh.triangles[query.hit.primID];
-    const float b = query.hit.u, c = query.hit.v;
+    const Vertex point = blend(mesh, triangle, query.hit.u, query.hit.v);
 
     hit->material = placement.material;
     // From the corners, not along the ray: the error is that of the mesh's size, not the distance.
-    hit->position = blend(mesh.positions, triangle, b, c) + placement.offset;
-    V3f ns = blend(mesh.normals, triangle, b, c).normalized();
+    hit->position = point.position + placement.offset;
+    V3f ns = point.normal.normalized();
     V3f ng = V3f(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z).normalized();
     if (ng.dot(ns) < 0.0f) ng = -ng;
 
@@ -159,8 +165,7 @@ bool Scene::intersect(const Ray& ray, Hit* hit) const
     constexpr float kLeast = 1e-3f;
     if (cosine < kLeast) ns = (ns + ray.direction * (facing * (kLeast - cosine))).normalized();
 
-    V3f t = blend(mesh.tangents, triangle, b, c);
-    t -= ns * ns.dot(t);
+    const V3f t = point.tangent - ns * ns.dot(point.tangent);
     hit->geometric_normal = ng;
     hit->normal = ns;
     hit->tangent = t.length2() > 1e-8f ? t.normalized() : perpendicular(ns);

@@ -47,7 +47,13 @@ Real dot(const Vec3<Real>& a, const Vec3<Real>& b)
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-/// `unit`: |w| = 1 within half a per cent, so that garbage (NaN, infinity, zero) is not taken for a
+template <class Real>
+Vec3<Real> normalised(const Vec3<Real>& w)
+{
+    return w * (Real(1) / detail::sqrt(dot(w, w)));
+}
+
+/// |w| = 1 within half a per cent, so that garbage (NaN, infinity, zero) is not taken for a
 /// direction.
 template <class Real>
 MaskOf<Real> is_direction(const Vec3<Real>& w)

@@ -15,4 +15,6 @@ namespace regain::tools {
 
 // Add each command here and in main.cpp, in the order in which --help should list them.
 
+void add_render(CLI::App&, int& exit_code);
+
 }  // namespace regain::tools

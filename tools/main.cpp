@@ -17,7 +17,7 @@ int main(int argc, char** argv)
     app.require_subcommand(1);
 
     int exit_code = kDone;
-    (void)exit_code;
+    add_render(app, exit_code);
 
     try
     {

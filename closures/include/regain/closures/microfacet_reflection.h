@@ -129,7 +129,7 @@ public:
             const Distribution& distribution = _lobe._distribution;
 
             Terms t;
-            t.valid = _valid & !_delta & detail::is_above_horizon(direction);
+            t.valid = detail::both<Real>(_valid & !_delta, detail::is_above_horizon(direction));
             const Vec3<Real> wi =
                 detail::select(t.valid, direction, Vec3<Real>(Real(0), Real(0), Real(1)));
 

@@ -71,7 +71,7 @@ public:
         const Color lowest =
             detail::per_channel(_edge, [](Real e) { return detail::min(e, Real(0)); });
         const Color room = _F0 + lowest - _dip * detail::constant<Real>(dip_at_82);
-        const MaskOf<Real> exact = (room.x >= Real(0)) & (room.y >= Real(0)) & (room.z >= Real(0));
+        const MaskOf<Real> exact = detail::min(room.x, detail::min(room.y, room.z)) >= Real(0);
         if (detail::all<Real>(exact)) return closed_form;
         return detail::select(exact, closed_form, average_by_quadrature());
     }

@@ -59,7 +59,8 @@ template <class Real>
 MaskOf<Real> is_direction(const Vec3<Real>& w)
 {
     const Real length2 = dot(w, w);
-    return quiet_less(constant<Real>(0.99), length2) & quiet_less(length2, constant<Real>(1.01));
+    return both<Real>(quiet_less(constant<Real>(0.99), length2),
+                      quiet_less(length2, constant<Real>(1.01)));
 }
 
 /// Below this cosine a direction counts as below the horizon. It keeps products of cosines above
@@ -71,7 +72,7 @@ constexpr double horizon = 1e-12;
 template <class Real>
 MaskOf<Real> is_above_horizon(const Vec3<Real>& w)
 {
-    return quiet_less(constant<Real>(horizon), w.z) & is_direction(w);
+    return both<Real>(quiet_less(constant<Real>(horizon), w.z), is_direction(w));
 }
 
 }  // namespace detail

@@ -14,5 +14,7 @@ class App;
 namespace regain::tools {
 
 // Add each command here and in main.cpp, in the order in which --help should list them.
+void add_albedo(CLI::App& app, int& exit_code);
+void add_query(CLI::App& app, int& exit_code);
 
 }  // namespace regain::tools

@@ -17,7 +17,8 @@ int main(int argc, char** argv)
     app.require_subcommand(1);
 
     int exit_code = kDone;
-    (void)exit_code;
+    add_albedo(app, exit_code);
+    add_query(app, exit_code);
 
     try
     {

@@ -19,6 +19,7 @@ int main(int argc, char** argv)
     int exit_code = kDone;
     add_albedo(app, exit_code);
     add_query(app, exit_code);
+    add_bake(app, exit_code);
 
     try
     {

@@ -19,7 +19,10 @@ endif()
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(OpenColorIO
   REQUIRED_VARS OpenColorIO_LIBRARY OpenColorIO_INCLUDE_DIR
-  VERSION_VAR OpenColorIO_VERSION)
+  VERSION_VAR OpenColorIO_VERSION
+  HANDLE_VERSION_RANGE
+  REASON_FAILURE_MESSAGE
+    "Install it (Debian, Ubuntu: libopencolorio-dev) or set OpenColorIO_ROOT to the folder it is installed in.")
 
 if(OpenColorIO_FOUND AND NOT TARGET OpenColorIO::OpenColorIO)
   add_library(OpenColorIO::OpenColorIO UNKNOWN IMPORTED)

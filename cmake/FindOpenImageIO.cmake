@@ -26,7 +26,10 @@ endif()
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(OpenImageIO
   REQUIRED_VARS OpenImageIO_LIBRARY OpenImageIO_Util_LIBRARY OpenImageIO_INCLUDE_DIR
-  VERSION_VAR OpenImageIO_VERSION)
+  VERSION_VAR OpenImageIO_VERSION
+  HANDLE_VERSION_RANGE
+  REASON_FAILURE_MESSAGE
+    "Install it (Debian, Ubuntu: libopenimageio-dev) or set OpenImageIO_ROOT to the folder it is installed in.")
 
 if(OpenImageIO_FOUND AND NOT TARGET OpenImageIO::OpenImageIO)
   # Its public headers include Imath's.

@@ -23,7 +23,10 @@ endif()
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(xsimd
   REQUIRED_VARS xsimd_INCLUDE_DIR
-  VERSION_VAR xsimd_VERSION)
+  VERSION_VAR xsimd_VERSION
+  HANDLE_VERSION_RANGE
+  REASON_FAILURE_MESSAGE
+    "Install it (Debian, Ubuntu: libxsimd-dev) or set xsimd_ROOT to the folder it is installed in.")
 
 if(xsimd_FOUND AND NOT TARGET xsimd)
   add_library(xsimd INTERFACE IMPORTED)

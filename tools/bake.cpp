@@ -4,6 +4,8 @@
 #include "commands.h"
 #include "errors.h"
 #include "json_fields.h"
+#include "preview/interrupt.h"
+#include "preview/progress.h"
 #include "table_check.h"
 
 #include <regain/luts/bake.h>
@@ -17,8 +19,7 @@
 
 #include <unistd.h>
 
-#include <atomic>
-#include <csignal>
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -54,47 +55,19 @@ struct Arguments
     bool verify = false, json = false;
 };
 
-std::atomic<bool> interrupted{false};
-
-// Ctrl-C asks to stop; a second one ends the program at once.
-class StopOnInterrupt
+luts::Table bake_showing(const std::string& name, const InterruptGuard& guard)
 {
-public:
-    StopOnInterrupt() { std::signal(SIGINT, handle); }
-    ~StopOnInterrupt() { std::signal(SIGINT, SIG_DFL); }
-    StopOnInterrupt(const StopOnInterrupt&) = delete;
-    StopOnInterrupt& operator=(const StopOnInterrupt&) = delete;
-
-private:
-    static void handle(int)
-    {
-        interrupted = true;
-        std::signal(SIGINT, SIG_DFL);
-    }
-};
-
-// On a terminal only; the line is gone when the table is done.
-luts::Table bake_showing(const std::string& name)
-{
-    const bool terminal = ::isatty(STDERR_FILENO) == 1;
-    const auto progress = [&](double done) {
-        if (terminal) fmt::print(stderr, "\rregain: baking {} {:3.0f} %", name, 100 * done);
-        return !interrupted;
-    };
-    progress(0);
-    luts::Table table;
-    try
-    {
-        table = luts::bake(name, progress);
-    }
-    catch (const luts::BakeStopped&)
-    {
-        if (terminal) fmt::print(stderr, "\n");
-        throw;
-    }
-    if (terminal) fmt::print(stderr, "\r\033[K");
+    constexpr std::uint64_t steps = 1000;
+    Progress progress("baking " + name, steps, Progress::style(false));
+    std::uint64_t shown = 0;
+    luts::Table table = luts::bake(name, [&](double done) {
+        const auto now = static_cast<std::uint64_t>(done * static_cast<double>(steps));
+        progress.advance(now - std::min(shown, now));
+        shown = now;
+        return !guard.flag();
+    });
     // A table may be too small to ask often.
-    if (interrupted) throw luts::BakeStopped();
+    if (guard.flag()) throw luts::BakeStopped();
     return table;
 }
 
@@ -125,7 +98,7 @@ void write_embedded(const fs::path& file, const luts::Table& table)
     });
 }
 
-int run_bake(const Arguments& a)
+int run_bake(const Arguments& a, const InterruptGuard& guard)
 {
     if (a.output.empty() && a.embed.empty())
         throw BadInput("nothing to do: give -o FOLDER, --embed FOLDER or --verify");
@@ -139,7 +112,7 @@ int run_bake(const Arguments& a)
 
     std::vector<luts::Table> tables;
     for (const std::string& name : a.given.empty() ? luts::bakeable_tables() : a.given)
-        tables.push_back(bake_showing(name));
+        tables.push_back(bake_showing(name, guard));
 
     Json report = Json::array();
     if (!a.json)
@@ -184,7 +157,7 @@ struct ShippedFile
 };
 
 std::vector<TableCheck> check_table(const std::string& name, const std::vector<ShippedFile>& files,
-                                    int spots)
+                                    int spots, const InterruptGuard& guard)
 {
     std::vector<TableCheck> checks;
     if (spots > 0)
@@ -195,7 +168,7 @@ std::vector<TableCheck> check_table(const std::string& name, const std::vector<S
                 checks.push_back(check_spots(name, f.table.view(), f.file, spots));
         return checks;
     }
-    const luts::Table baked = bake_showing(name);
+    const luts::Table baked = bake_showing(name, guard);
     checks.push_back(check_builtin(baked));
     for (const ShippedFile& f : files)
         if (f.table.name() == name) checks.push_back(check_file(baked, f.table, f.file));
@@ -223,7 +196,7 @@ void print(const TableCheck& c)
                    c.worst->where, c.worst->shipped, c.worst->expected);
 }
 
-int run_verify(const Arguments& a)
+int run_verify(const Arguments& a, const InterruptGuard& guard)
 {
     if (!a.output.empty() || !a.embed.empty())
         throw BadInput("--verify writes nothing: leave out -o and --embed");
@@ -246,7 +219,7 @@ int run_verify(const Arguments& a)
     Json report = Json::array();
     int failed = 0;
     for (const std::string& name : names.empty() ? luts::bakeable_tables() : names)
-        for (const TableCheck& check : check_table(name, files, a.spots))
+        for (const TableCheck& check : check_table(name, files, a.spots, guard))
         {
             if (!a.json) print(check);
             report.push_back(as_json(check));
@@ -263,10 +236,10 @@ int run_verify(const Arguments& a)
 
 int run(const Arguments& a)
 {
-    const StopOnInterrupt guard;
+    const InterruptGuard guard;
     try
     {
-        return a.verify ? run_verify(a) : run_bake(a);
+        return a.verify ? run_verify(a, guard) : run_bake(a, guard);
     }
     catch (const luts::BakeStopped&)
     {

@@ -18,4 +18,6 @@ void add_albedo(CLI::App& app, int& exit_code);
 void add_query(CLI::App& app, int& exit_code);
 void add_bake(CLI::App& app, int& exit_code);
 
+void add_render(CLI::App&, int& exit_code);
+
 }  // namespace regain::tools

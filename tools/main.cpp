@@ -17,6 +17,7 @@ int main(int argc, char** argv)
     app.require_subcommand(1);
 
     int exit_code = kDone;
+    add_render(app, exit_code);
     add_albedo(app, exit_code);
     add_query(app, exit_code);
     add_bake(app, exit_code);

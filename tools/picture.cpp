@@ -96,6 +96,8 @@ void write_exr(const fs::path& file, const Picture& picture, const Metadata& met
         spec.attribute("regain:colorspace", space);
     }
     spec.attribute("oiio:ColorSpace", space);
+    // Left out, it would be now, and the same picture would never be the same file.
+    spec.attribute("DateTime", "");
     if (!spec.find_attribute("regain:version"))
         spec.attribute("regain:version", REGAIN_VERSION_STRING);
 

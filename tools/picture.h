@@ -31,16 +31,17 @@ struct Metadata
     std::vector<std::pair<std::string, std::string>> entries;
 };
 
-/// Half float, scene linear. Values beyond the range of half (65504) are clamped to it.
-/// The file says the software and its version, and its colour space: the entry "colorspace" where
-/// there is one, otherwise the scene_linear of ColorConfig::active(). Throws std::runtime_error if
-/// a pixel is not finite (with their number), if the size does not fit the pixels, or if the file
-/// cannot be written.
+/// Half float, scene linear. Values beyond the range of half (65504) are clamped to it. Beside the
+/// metadata the file says the software, "regain:version", and its colour space,
+/// "regain:colorspace": the entry of that name where there is one, otherwise the scene_linear of
+/// ColorConfig::active(). It carries no date: the same picture is the same file, byte for byte.
+/// Throws std::runtime_error if a pixel is not finite (with their number), if the size does not fit
+/// the pixels, if the name does not end in .exr, or if the file cannot be written.
 void write_exr(const std::filesystem::path& file, const Picture& picture, const Metadata& metadata);
 
 /// 8 bits a channel, through the display and view of the config ("" = default); values are clamped
-/// to [0, 1] and rounded to the nearest step, without dither. Throws as write_exr does, and where
-/// the config does not know the display or the view.
+/// to [0, 1] and rounded to the nearest step, without dither. Throws as write_exr does (the
+/// name must end in .png), and where the config does not know the display or the view.
 void write_png(const std::filesystem::path& file, const Picture& picture,
                const shaders::ColorConfig& config, const std::string& display,
                const std::string& view);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright Contributors to the Regain project
 
+#include <regain/closures/fresnel_moments.h>
 #include <regain/luts/albedo_integral.h>
 #include <regain/luts/bake.h>
 
@@ -30,12 +31,6 @@ struct Angle
     double mu, alpha;
 };
 
-double schlick_falloff(double c)
-{
-    const double x = 1 - c;
-    return x * x * x * x * x;
-}
-
 struct Definition
 {
     TableInfo info;
@@ -56,13 +51,24 @@ double E_avg(double y, double, int nodes)
     return ggx_average_albedo(std::max(y * y, smallest_alpha), {nodes});
 }
 
-double fresnel_blend(double x, double y, int nodes)
+// The mean of a curve over what is scattered once, less its value at mu.
+double shift_of_mean(double (*curve)(double), double x, double y, int nodes)
 {
     // At mu = 0 there is nothing left to take a mean of; next to it the limit can be read off.
     const Angle at(std::max(x, 1e-3), y);
-    const double all = ggx_albedo(at.mu, at.alpha, {}, {nodes});
-    const double edge = ggx_albedo(at.mu, at.alpha, schlick_falloff, {nodes});
-    return edge / all - schlick_falloff(at.mu);
+    return ggx_albedo(at.mu, at.alpha, curve, {nodes}) / ggx_albedo(at.mu, at.alpha, {}, {nodes}) -
+           curve(at.mu);
+}
+
+double falloff(double x, double y, int nodes)
+{
+    return shift_of_mean([](double mu) { return FresnelMoments<double>::at(mu).falloff; }, x, y,
+                         nodes);
+}
+
+double dip(double x, double y, int nodes)
+{
+    return shift_of_mean([](double mu) { return FresnelMoments<double>::at(mu).dip; }, x, y, nodes);
 }
 
 std::vector<Definition> definitions()
@@ -71,7 +77,7 @@ std::vector<Definition> definitions()
     const std::string quadrature = "Gauss-Legendre over the disc of upward slopes";
     const std::string fitted = quadrature + ", nodes levelled for the least largest error";
 
-    Definition ss, avg, blend;
+    Definition ss, avg, edge, tint;
     ss.info = {"E_ss",           "ggx", 0,          x, y, fitted, node_accuracy, 0, "relative",
                table_definition, 0,     1.0 / 65000};
     ss.height = table_nodes;
@@ -86,14 +92,22 @@ std::vector<Definition> definitions()
     avg.largest = 1;
     avg.exact = E_avg;
 
-    blend.info = {
-        "fresnel_blend",  "ggx", 0,          x, y, quadrature, node_accuracy, 0, "absolute",
-        table_definition, -1, 1.25 / 65535};
-    blend.height = table_nodes;
-    blend.fitted = false;
-    blend.largest = 0.25;
-    blend.exact = fresnel_blend;
-    return {ss, avg, blend};
+    edge.info = {"falloff",  "ggx",         0, x,          y,
+                 quadrature, node_accuracy, 0, "absolute", table_definition,
+                 -1,         1.25 / 65535};
+    edge.height = table_nodes;
+    edge.fitted = false;
+    edge.largest = 0.25;
+    edge.exact = falloff;
+
+    tint.info = {"dip",      "ggx",         0, x,          y,
+                 quadrature, node_accuracy, 0, "absolute", table_definition,
+                 -0.06,      0.12 / 65535};
+    tint.height = table_nodes;
+    tint.fitted = false;
+    tint.largest = 0.06;
+    tint.exact = dip;
+    return {ss, avg, edge, tint};
 }
 
 Definition definition_of(const std::string& name)

@@ -10,7 +10,8 @@ namespace {
 // Written by `regain bake --embed` from the EXR files in data/.
 #include "builtin/ggx_E_avg.inc"
 #include "builtin/ggx_E_ss.inc"
-#include "builtin/ggx_fresnel_blend.inc"
+#include "builtin/ggx_dip.inc"
+#include "builtin/ggx_falloff.inc"
 
 }  // namespace
 
@@ -19,7 +20,8 @@ MicrofacetTables ggx_tables()
     MicrofacetTables tables;
     tables.E_ss = ggx_E_ss;
     tables.E_avg = ggx_E_avg;
-    tables.fresnel_blend = ggx_fresnel_blend;
+    tables.falloff = ggx_falloff;
+    tables.dip = ggx_dip;
     return tables;
 }
 
@@ -27,7 +29,8 @@ TableView builtin_table(const std::string& name)
 {
     if (name == "ggx_E_ss") return ggx_E_ss;
     if (name == "ggx_E_avg") return ggx_E_avg;
-    if (name == "ggx_fresnel_blend") return ggx_fresnel_blend;
+    if (name == "ggx_falloff") return ggx_falloff;
+    if (name == "ggx_dip") return ggx_dip;
     return {};
 }
 

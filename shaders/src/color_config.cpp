@@ -9,6 +9,8 @@
 
 #include <OpenColorIO/OpenColorIO.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <optional>
@@ -34,6 +36,16 @@ namespace {
 OCIO::ConstCPUProcessorRcPtr cpu_processor(const OCIO::ConstProcessorRcPtr& processor)
 {
     return processor->getOptimizedCPUProcessor(OCIO::OPTIMIZATION_LOSSLESS);
+}
+
+// OpenColorIO's own words, to be part of a sentence.
+std::string reason(const OCIO::Exception& e)
+{
+    std::string text = e.what();
+    while (!text.empty() &&
+           (text.back() == '.' || std::isspace(static_cast<unsigned char>(text.back()))))
+        text.pop_back();
+    return text;
 }
 
 // The matrix, for columns, of a transform that is linear; nothing if it is not.
@@ -92,7 +104,7 @@ WayFromXyz find_way_from_xyz(const OCIO::ConstConfigRcPtr& config)
 {
     std::string tried;
     const auto linear_from = [&](const char* space) -> std::optional<Imath::M33d> {
-        std::string reason = "is not linearly related to scene_linear";
+        std::string why = "is not linearly related to scene_linear";
         try
         {
             const auto m =
@@ -101,9 +113,9 @@ WayFromXyz find_way_from_xyz(const OCIO::ConstConfigRcPtr& config)
         }
         catch (const OCIO::Exception& e)
         {
-            reason = std::string("cannot be converted: ") + e.what();
+            why = "cannot be converted: " + reason(e);
         }
-        tried += std::string("; '") + space + "' " + reason;
+        tried += std::string("; '") + space + "' " + why;
         return {};
     };
 
@@ -157,9 +169,15 @@ struct ColorConfig::Impl
 void ColorTransform::apply(Imath::C3f* pixels, std::size_t count) const
 {
     static_assert(sizeof(Imath::C3f) == 3 * sizeof(float), "pixels are packed");
-    if (!_impl || count == 0) return;
-    OCIO::PackedImageDesc image(pixels, static_cast<long>(count), 1, 3);
-    _impl->processor->apply(image);
+    if (!_impl) return;
+    // OpenColorIO keeps a copy of a line: long pictures go in pieces.
+    constexpr std::size_t piece = 65536;
+    for (std::size_t done = 0; done < count; done += piece)
+    {
+        const auto width = static_cast<long>(std::min(piece, count - done));
+        OCIO::PackedImageDesc image(pixels + done, width, 1, 3);
+        _impl->processor->apply(image);
+    }
 }
 
 bool ColorTransform::is_identity() const { return !_impl || _impl->processor->isNoOp(); }
@@ -176,10 +194,9 @@ ColorConfig ColorConfig::active()
     }
     catch (const std::runtime_error& e)
     {
-        throw std::runtime_error(
-            std::string(
-                "the environment variable OCIO names a colour config that cannot be used: ") +
-            e.what() + " (mend it, or unset OCIO for the built-in config)");
+        throw std::runtime_error(std::string(e.what()) +
+                                 "; the environment variable OCIO names it: mend it, name another, "
+                                 "or unset OCIO for the built-in config");
     }
 }
 
@@ -195,6 +212,8 @@ ColorConfig ColorConfig::from_file(const std::filesystem::path& file)
     const auto fail = [&](const std::string& why) {
         throw std::runtime_error("cannot use the colour config '" + file.string() + "': " + why);
     };
+    std::error_code ignored;
+    if (std::filesystem::is_directory(file, ignored)) fail("it is a folder");
     try
     {
         const auto config = OCIO::Config::CreateFromFile(file.string().c_str());
@@ -208,7 +227,7 @@ ColorConfig ColorConfig::from_file(const std::filesystem::path& file)
     }
     catch (const OCIO::Exception& e)
     {
-        fail(e.what());
+        fail(reason(e));
         throw;
     }
 }
@@ -263,7 +282,7 @@ ColorTransform ColorConfig::convert(const std::string& from_space,
     }
     catch (const OCIO::Exception& e)
     {
-        _impl->fail("cannot convert from '" + from_space + "' to '" + to_space + "': " + e.what());
+        _impl->fail("cannot convert from '" + from_space + "' to '" + to_space + "': " + reason(e));
     }
 }
 
@@ -322,7 +341,7 @@ ColorTransform ColorConfig::display_transform(const std::string& display,
     }
     catch (const OCIO::Exception& e)
     {
-        _impl->fail("cannot use view '" + wanted + "' of display '" + known + "': " + e.what());
+        _impl->fail("cannot use view '" + wanted + "' of display '" + known + "': " + reason(e));
     }
 }
 
@@ -336,7 +355,7 @@ void ColorConfig::validate() const
     }
     catch (const OCIO::Exception& e)
     {
-        _impl->fail(e.what());
+        _impl->fail(reason(e));
     }
 }
 
@@ -349,7 +368,7 @@ std::string ColorConfig::text() const
     }
     catch (const OCIO::Exception& e)
     {
-        _impl->fail(e.what());
+        _impl->fail(reason(e));
     }
     return text.str();
 }

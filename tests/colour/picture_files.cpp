@@ -100,6 +100,7 @@ TEST(PictureFiles, same_picture_same_bytes)
     for (const char* name : {"a.exr", "b.exr"})
         write_exr(folder / name, picture, {{{"seed", "1"}}});
     EXPECT_EQ(bytes_of(folder / "a.exr"), bytes_of(folder / "b.exr"));
+    EXPECT_EQ(read(folder / "a.exr").spec.get_string_attribute("DateTime"), "");
     for (const char* name : {"a.png", "b.png"})
         write_png(folder / name, picture, ColorConfig::builtin(), "", "");
     EXPECT_EQ(bytes_of(folder / "a.png"), bytes_of(folder / "b.png"));

@@ -51,8 +51,8 @@ function(list_installed out prefix)
   list(TRANSFORM files REPLACE "^lib(64|/[^/]*-linux-[^/]*)?/" "lib/")
   list(TRANSFORM files REPLACE "^lib/(lib[a-z_]+)\\.(a|so[.0-9]*|dylib|[.0-9]+dylib)$"
        "lib/\\1.LIBRARY")
-  # One file for each build type, and none where no library is compiled.
-  list(FILTER files EXCLUDE REGEX "RegainTargets-[a-z]+\\.cmake$")
+  # Which of these there are depends on the build type and on what is linked statically.
+  list(FILTER files EXCLUDE REGEX "^lib/cmake/Regain/(RegainTargets-[a-z]+|Find[A-Za-z]+)\\.cmake$")
   list(REMOVE_DUPLICATES files)
   list(SORT files)
   set(${out} "${files}" PARENT_SCOPE)

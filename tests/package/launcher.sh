@@ -149,6 +149,12 @@ echo '75% tests passed, 3 tests failed out of 12' >"$scratch/ctest-says"
 launch '' test
 check 'failed tests give exit code 1' exits 1
 check 'failed tests are counted' last_line '9 passed, 3 failed'
+printf '%s\n' '100% tests passed, 0 tests failed out of 3' 'The following tests did not run:' \
+    $'\t  2 - a.name (Skipped)' >"$scratch/ctest-says"
+echo 0 >"$scratch/ctest-exit"
+launch '' test
+check 'skipped tests do not count as passed' last_line '2 passed, 0 failed'
+echo 8 >"$scratch/ctest-exit"
 echo 'No tests were found!!!' >"$scratch/ctest-says"
 launch '' test
 check 'no tests are a failure' exits 1

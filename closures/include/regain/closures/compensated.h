@@ -73,7 +73,7 @@ public:
             else
             {
                 // No table knows a gain that depends on wi.
-                constexpr int n = 24;
+                constexpr int n = 32;
                 Albedo<Real> sum{Color(Real(0)), Color(Real(0))};
                 for (int j = 0; j < n; ++j)
                     for (int i = 0; i < n; ++i)

@@ -16,7 +16,7 @@
 
 #pragma once
 
-#include <regain/closures/vector.h>
+#include <regain/closures/fresnel_moments.h>
 
 REGAIN_NAMESPACE_BEGIN
 
@@ -39,6 +39,9 @@ public:
     }
 
     Color normal_incidence() const { return at(Real(1)); }
+
+    /// F at the cosine of the falloff.
+    Color mean(const FresnelMoments<Real>& moments) const { return at(moments.cosine()); }
 
     /// By Gauss-Jacobi quadrature of five nodes: within 3e-4 for n in [0.04, 5], k in [0.5, 10].
     Color average() const
@@ -70,7 +73,8 @@ private:
         const Real t3 = mu2 * modulus + s2 * s2, t4 = t2 * s2;
         const Real A_s = Real(2) * t2 / detail::max(t1 + t2, tiny);
         const Real q = Real(2) * t4 / detail::max(t3 + t4, tiny);
-        return Real(1) - Real(0.5f) * (A_s + A_s + q - A_s * q);
+        // Where nothing is reflected rounding may leave less than nothing.
+        return detail::max(Real(1) - Real(0.5f) * (A_s + A_s + q - A_s * q), Real(0));
     }
 
     Color _n, _k;

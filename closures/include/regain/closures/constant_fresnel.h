@@ -9,11 +9,12 @@
 ///     at(mu)               reflectance at the cosine mu in [0, 1] between a direction and the
 ///                          normal of the facet
 ///     normal_incidence()   at(1), the paper's F0
+///     mean(moments)        mean over facets of which only these moments are known
 ///     average()            F_ss = 2 int_0^1 at(mu) mu dmu (Turquin 2019, below Eq. 7)
 
 #pragma once
 
-#include <regain/closures/vector.h>
+#include <regain/closures/fresnel_moments.h>
 
 REGAIN_NAMESPACE_BEGIN
 
@@ -30,6 +31,7 @@ public:
 
     Color3<Real> at(Real) const { return _value; }
     Color3<Real> normal_incidence() const { return _value; }
+    Color3<Real> mean(const FresnelMoments<Real>&) const { return _value; }
     Color3<Real> average() const { return _value; }
 
 private:

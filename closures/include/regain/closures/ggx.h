@@ -49,7 +49,7 @@ public:
         const Real bound = detail::constant<Real>(delta_alpha);
         const Real ax = detail::sanitised(alpha_x, 0, 1, 1),
                    ay = detail::sanitised(alpha_y, 0, 1, 1);
-        _delta = (ax <= bound) & (ay <= bound);
+        _delta = detail::both<Real>(ax <= bound, ay <= bound);
         _alpha_x = detail::max(ax, bound);
         _alpha_y = detail::max(ay, bound);
         _inv_alpha_x = Real(1) / _alpha_x;

@@ -61,7 +61,9 @@ public:
             : _lobe(lobe),
               _delta(lobe._distribution.is_delta()),
               _valid(detail::is_above_horizon(wo)),
-              _wo(detail::select(_valid, wo, Vec3<Real>(Real(0), Real(0), Real(1)))),
+              // Directions of hosts are unit up to their own rounding, samples up to this type's.
+              _wo(detail::normalised(
+                  detail::select(_valid, wo, Vec3<Real>(Real(0), Real(0), Real(1))))),
               _visible(lobe._distribution.visible(_wo)),
               _weight(detail::select(_valid, Real(1), Real(0)))
         {}
@@ -106,8 +108,8 @@ public:
 
         Albedo<Real> albedo() const
         {
-            if (_lobe._tables.E_ss && _lobe._tables.fresnel_blend)
-                return {tabulated_albedo(), Color(Real(0))};
+            const MicrofacetTables& t = _lobe._tables;
+            if (t.E_ss && t.falloff && t.dip) return {tabulated_albedo(), Color(Real(0))};
             return {integrated_albedo(), Color(Real(0))};
         }
 
@@ -127,7 +129,7 @@ public:
             const Distribution& distribution = _lobe._distribution;
 
             Terms t;
-            t.valid = _valid & !_delta & detail::is_above_horizon(direction);
+            t.valid = detail::both<Real>(_valid & !_delta, detail::is_above_horizon(direction));
             const Vec3<Real> wi =
                 detail::select(t.valid, direction, Vec3<Real>(Real(0), Real(0), Real(1)));
 
@@ -146,20 +148,23 @@ public:
 
         Color tabulated_albedo() const
         {
+            const MicrofacetTables& tables = _lobe._tables;
             const Real alpha = _lobe._distribution.effective_alpha(), mu = _wo.z;
             const Real x = stretched_cosine(mu, alpha), y = detail::sqrt(alpha);
             const Real E =
-                detail::select(_delta, Real(1), detail::min(_lobe._tables.E_ss.at(x, y), Real(1)));
-            const Real c = Real(1) - mu, c2 = c * c, falloff = c2 * c2 * c;
-            const Real mean = detail::saturate(falloff + _lobe._tables.fresnel_blend.at(x, y));
-            const Real cos_mean = Real(1) - detail::pow(mean, detail::constant<Real>(0.2));
-            return _lobe._fresnel.at(detail::select(_delta, mu, cos_mean)) * _weight * E;
+                detail::select(_delta, Real(1), detail::min(tables.E_ss.at(x, y), Real(1)));
+            FresnelMoments<Real> moments = FresnelMoments<Real>::at(mu);
+            moments.falloff += tables.falloff.at(x, y);
+            moments.dip += tables.dip.at(x, y);
+            const Color F =
+                detail::select(_delta, _lobe._fresnel.at(mu), _lobe._fresnel.mean(moments));
+            return F * _weight * E;
         }
 
         // The mean weight over a grid of random numbers.
         Color integrated_albedo() const
         {
-            constexpr int n = 24;
+            constexpr int n = 32;
             Color sum(Real(0));
             for (int j = 0; j < n; ++j)
                 for (int i = 0; i < n; ++i)

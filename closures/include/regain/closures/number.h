@@ -30,6 +30,7 @@ struct NumberTraits<Real, std::enable_if_t<std::is_floating_point_v<Real>>>
     static Real select(bool mask, Real a, Real b) { return mask ? a : b; }
     static bool all(bool mask) { return mask; }
     static bool any(bool mask) { return mask; }
+    static bool both(bool a, bool b) { return a && b; }
 
     /// a < b, where a may be unchecked input: false for a quiet NaN, which raises no exception.
     static bool quiet_less(Real a, Real b) { return std::isless(a, b); }
@@ -104,6 +105,13 @@ template <class T>
 T pow(const T& x, const T& y)
 {
     return NumberTraits<T>::pow(x, y);
+}
+
+/// Both masks hold. The operator & says so too, but on two bools it is more often a slip.
+template <class Real>
+MaskOf<Real> both(const MaskOf<Real>& a, const MaskOf<Real>& b)
+{
+    return NumberTraits<Real>::both(a, b);
 }
 
 /// Every lane, some lane.

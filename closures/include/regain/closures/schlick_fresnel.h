@@ -14,7 +14,7 @@
 
 #pragma once
 
-#include <regain/closures/vector.h>
+#include <regain/closures/fresnel_moments.h>
 
 REGAIN_NAMESPACE_BEGIN
 
@@ -40,7 +40,7 @@ public:
         const Color tint = detail::per_channel(F82, clamped);
         const Real falloff = power(detail::constant<Real>(6.0 / 7.0));
         _dip = (_F0 + _edge * falloff) * (Color(Real(1)) - tint) *
-               detail::constant<Real>(1.0 / peak_of_dip);
+               detail::constant<Real>(1.0 / dip_at_82);
     }
 
     Color at(Real mu) const
@@ -54,6 +54,14 @@ public:
 
     Color normal_incidence() const { return _F0; }
 
+    /// Exact for the exponent 5, unless F is clamped.
+    Color mean(const FresnelMoments<Real>& moments) const
+    {
+        const Real falloff = _is_quintic ? moments.falloff : power(Real(1) - moments.cosine());
+        return detail::per_channel(_F0 + _edge * falloff - _dip * moments.dip,
+                                   [](Real v) { return detail::saturate(v); });
+    }
+
     Color average() const
     {
         const Real n = _exponent;
@@ -62,15 +70,15 @@ public:
         // Where F is clamped the closed form, which knows nothing of it, is too low.
         const Color lowest =
             detail::per_channel(_edge, [](Real e) { return detail::min(e, Real(0)); });
-        const Color room = _F0 + lowest - _dip * detail::constant<Real>(peak_of_dip);
-        const MaskOf<Real> exact = (room.x >= Real(0)) & (room.y >= Real(0)) & (room.z >= Real(0));
+        const Color room = _F0 + lowest - _dip * detail::constant<Real>(dip_at_82);
+        const MaskOf<Real> exact = detail::min(room.x, detail::min(room.y, room.z)) >= Real(0);
         if (detail::all<Real>(exact)) return closed_form;
         return detail::select(exact, closed_form, average_by_quadrature());
     }
 
 private:
-    // (1/7) (6/7)^6, the largest value of mu (1 - mu)^6.
-    static constexpr double peak_of_dip = 46656.0 / 823543.0;
+    // mu (1 - mu)^6 at mu = 1/7, where it is largest.
+    static constexpr double dip_at_82 = 46656.0 / 823543.0;
 
     Real power(Real x) const
     {

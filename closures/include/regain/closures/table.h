@@ -91,9 +91,9 @@ struct MicrofacetTables
 {
     TableView E_ss;   ///< single-scattering albedo with F = 1, over (x, y); limit look-ups to 1
     TableView E_avg;  ///< 2 int_0^1 E_ss mu dmu, over y
-    /// Over (x, y): the mean of (1 - wo.m)^5 over all that is scattered once, less (1 - mu)^5. It
-    /// says at which cosine a Fresnel term has about its mean: exactly, for Schlick's.
-    TableView fresnel_blend;
+    /// Over (x, y): the moments of fresnel_moments.h over all that is scattered once, each less its
+    /// value at mu.
+    TableView falloff, dip;
 };
 
 REGAIN_NAMESPACE_END

@@ -47,13 +47,20 @@ Real dot(const Vec3<Real>& a, const Vec3<Real>& b)
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-/// `unit`: |w| = 1 within half a per cent, so that garbage (NaN, infinity, zero) is not taken for a
+template <class Real>
+Vec3<Real> normalised(const Vec3<Real>& w)
+{
+    return w * (Real(1) / detail::sqrt(dot(w, w)));
+}
+
+/// |w| = 1 within half a per cent, so that garbage (NaN, infinity, zero) is not taken for a
 /// direction.
 template <class Real>
 MaskOf<Real> is_direction(const Vec3<Real>& w)
 {
     const Real length2 = dot(w, w);
-    return quiet_less(constant<Real>(0.99), length2) & quiet_less(length2, constant<Real>(1.01));
+    return both<Real>(quiet_less(constant<Real>(0.99), length2),
+                      quiet_less(length2, constant<Real>(1.01)));
 }
 
 /// Below this cosine a direction counts as below the horizon. It keeps products of cosines above
@@ -65,7 +72,7 @@ constexpr double horizon = 1e-12;
 template <class Real>
 MaskOf<Real> is_above_horizon(const Vec3<Real>& w)
 {
-    return quiet_less(constant<Real>(horizon), w.z) & is_direction(w);
+    return both<Real>(quiet_less(constant<Real>(horizon), w.z), is_direction(w));
 }
 
 }  // namespace detail

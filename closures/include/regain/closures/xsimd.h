@@ -28,6 +28,7 @@ struct NumberTraits<xsimd::batch<T, Arch>>
     }
     static bool all(const Mask& mask) { return xsimd::all(mask); }
     static bool any(const Mask& mask) { return xsimd::any(mask); }
+    static Mask both(const Mask& a, const Mask& b) { return a & b; }
     static Mask quiet_less(const Batch& a, const Batch& b) { return a < b; }
 
     static Batch min(const Batch& a, const Batch& b) { return xsimd::min(a, b); }

@@ -26,7 +26,7 @@ struct BakeStopped : std::runtime_error
     BakeStopped() : std::runtime_error("stopped while baking") {}
 };
 
-/// Names of the tables that bake knows: "ggx_E_ss", "ggx_E_avg", "ggx_fresnel_blend".
+/// Names of the tables that bake knows: "ggx_E_ss", "ggx_E_avg", "ggx_falloff", "ggx_dip".
 REGAIN_LUTS_API std::vector<std::string> bakeable_tables();
 
 /// The table of that name; throws std::invalid_argument, which lists the names, for any other.

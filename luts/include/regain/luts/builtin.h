@@ -13,7 +13,7 @@
 REGAIN_NAMESPACE_BEGIN
 namespace luts {
 
-/// E_ss, E_avg and the Fresnel blend of GGX.
+/// E_ss, E_avg and the Fresnel moments of GGX.
 REGAIN_LUTS_API MicrofacetTables ggx_tables();
 
 /// The built-in table of that name ("ggx_E_ss", ...), an empty view for any other.

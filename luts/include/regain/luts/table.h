@@ -23,7 +23,7 @@ constexpr int table_definition = 1;
 /// What a table is; written whole into the header of its EXR file.
 struct TableInfo
 {
-    std::string quantity;        ///< "E_ss", "E_avg" or "fresnel_blend", as in MicrofacetTables
+    std::string quantity;        ///< "E_ss", "E_avg", "falloff" or "dip", as in MicrofacetTables
     std::string distribution;    ///< "ggx"
     double gamma = 0;            ///< tail parameter, 0 where the distribution has none
     std::string axis_x, axis_y;  ///< formula of each axis; axis_y empty for one axis

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+// The directional albedo, from tables and without them, against integrals of eval.
+
+#include "../support/closures.h"
+#include "../support/reflection_integral.h"
+
+#include <gtest/gtest.h>
+
+using namespace regain;
+using namespace regain::tests;
+
+namespace {
+
+template <class Closure>
+Color3<double> integral(const Closure& closure, const Vec3<double>& wo, double alpha)
+{
+    const auto prepared = closure.prepare(wo);
+    return integrate_reflections(wo, alpha, alpha, 32,
+                                 [&](const auto& wi) { return prepared.eval(wi); });
+}
+
+template <class Lobe>
+double worst_tabulated(Lobe (*make)(double, double))
+{
+    double worst = 0;
+    for (double alpha : {1e-3, 0.02, 0.07, 0.2, 0.45, 0.8, 1.0})
+        for (double mu : {1e-3, 0.03, 0.1, 0.42, 0.8, 1.0})
+            for (Method method : {Method::none, Method::turquin})
+            {
+                const auto closure = compensated(make(alpha, alpha), method, luts::ggx_tables());
+                const auto wo = direction<double>(mu);
+                const auto exact = integral(closure, wo, alpha), table = closure.albedo(wo).reflect;
+                for (int c = 0; c < 3; ++c) worst = std::max(worst, std::abs(exact[c] - table[c]));
+            }
+    return worst;
+}
+
+// Schlick's curve is what the Fresnel table is exact for. Others have to be near enough for
+// choosing lobes and for layering.
+TEST(Albedo, tables_agree_with_the_integral)
+{
+    EXPECT_LT(worst_tabulated(artists_gold<double>), 2e-3);
+    EXPECT_LT(worst_tabulated(gold<double>), 1.2e-2);
+}
+
+TEST(Albedo, without_tables_is_integrated)
+{
+    for (double alpha : {0.1, 0.5, 1.0})
+        for (double mu : {0.1, 0.6, 1.0})
+        {
+            const auto lobe = gold<double>(alpha, alpha);
+            const auto exact = integral(lobe, direction<double>(mu), alpha);
+            const auto albedo = lobe.albedo(direction<double>(mu));
+            for (int c = 0; c < 3; ++c) EXPECT_NEAR(albedo.reflect[c], exact[c], 2e-3);
+            EXPECT_EQ(albedo.transmit, Color3<double>(0.0));
+        }
+}
+
+// Eq. 16 keeps the tint of gold between F and F^2, so compensation saturates.
+TEST(Albedo, compensation_brightens_and_saturates)
+{
+    const auto wo = direction<double>(0.7);
+    const auto lobe = gold<double>(1, 1);
+    const auto single = compensated(lobe, Method::none, luts::ggx_tables()).albedo(wo).reflect;
+    const auto full = compensated(lobe, Method::turquin, luts::ggx_tables()).albedo(wo).reflect;
+    EXPECT_GT(full.x, 2 * single.x);
+    EXPECT_LT(full.z / full.x, 0.9 * single.z / single.x);
+}
+
+}  // namespace

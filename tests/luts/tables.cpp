@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+// The tables against quadrature, against themselves re-baked, and against their files.
+
+#include "../support/closures.h"
+
+#include <regain/luts/albedo_integral.h>
+#include <regain/luts/bake.h>
+#include <regain/luts/builtin.h>
+#include <regain/luts/embed.h>
+#include <regain/luts/exr.h>
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+using namespace regain;
+using namespace regain::tests;
+namespace fs = std::filesystem;
+
+namespace {
+
+fs::path shipped(const std::string& name) { return fs::path(REGAIN_TABLES) / (name + ".exr"); }
+
+class Files : public testing::Test
+{
+protected:
+    void SetUp() override
+    {
+        _folder =
+            fs::temp_directory_path() /
+            ("regain-tables-" + std::to_string(::testing::UnitTest::GetInstance()->random_seed()) +
+             std::to_string(reinterpret_cast<std::uintptr_t>(this)));
+        fs::create_directories(_folder);
+    }
+    void TearDown() override { fs::remove_all(_folder); }
+    fs::path file(const std::string& name) const { return _folder / name; }
+
+    std::string error_of(const fs::path& path)
+    {
+        try
+        {
+            luts::read_table(path);
+        }
+        catch (const std::runtime_error& e)
+        {
+            return e.what();
+        }
+        return "";
+    }
+
+private:
+    fs::path _folder;
+};
+
+// Known values: E_ss(alpha 1, mu 1) = 1 - ln 2 in closed form; E_avg of GGX at alpha 1 is 0.409
+// (Turquin 2019, "E_avg about 0.4" below Eq. 7; 0.40914 by adaptive quadrature over directions).
+TEST(AlbedoIntegral, matches_known_values)
+{
+    EXPECT_NEAR(luts::ggx_albedo(1, 1), 1 - std::log(2.0), 1e-12);
+    EXPECT_NEAR(luts::ggx_average_albedo(1), 0.40914, 1e-5);
+    // Average albedos by the same adaptive quadrature.
+    const double alpha[] = {0.01, 0.1, 0.25, 0.5, 0.75},
+                 average[] = {.99949, .97205, .88232, .70024, .53630};
+    for (int i = 0; i < 5; ++i) EXPECT_NEAR(luts::ggx_average_albedo(alpha[i]), average[i], 1e-5);
+    const double mu[] = {.01, .05, .1, .2, .35, .5, .7, .9},
+                 E[] = {.9538, .8478, .7602, .6416, .5275, .4507, .3789, .3275};
+    for (int i = 0; i < 8; ++i) EXPECT_NEAR(luts::ggx_albedo(mu[i], 1), E[i], 1e-4);
+}
+
+TEST(AlbedoIntegral, has_converged)
+{
+    for (double alpha : {1e-3, 0.01, 0.1, 1.0})
+        for (double mu : {1e-4, 1e-3, 0.01, 0.1, 0.7, 1.0})
+            EXPECT_NEAR(luts::ggx_albedo(mu, alpha, {}, {48}),
+                        luts::ggx_albedo(mu, alpha, {}, {110}), 2e-9);
+}
+
+// Sampling of visible normals is another way to the same number.
+TEST(AlbedoIntegral, agrees_with_sampling)
+{
+    constexpr int n = 500;
+    for (double alpha : {0.2, 1.0})
+        for (double mu : {0.1, 0.8})
+        {
+            const auto prepared =
+                white<double>(alpha, alpha, NormalSampling::full).prepare(direction<double>(mu));
+            double mean = 0;
+            for (int j = 0; j < n; ++j)
+                for (int i = 0; i < n; ++i)
+                    mean += prepared.sample({(i + 0.5) / n, (j + 0.5) / n}).weight.x / (n * n);
+            EXPECT_NEAR(mean, luts::ggx_albedo(mu, alpha), 2e-5);
+        }
+}
+
+TEST(Tables, look_ups_err_by_less_than_a_thousandth)
+{
+    const TableView E_ss = luts::builtin_table("ggx_E_ss");
+    Random random(4);
+    double worst = 0;
+    for (int i = 0; i < 20000; ++i)
+    {
+        const double mu = std::pow(10, -3 * random.unit()),
+                     alpha = std::pow(10, -3 * random.unit());
+        const double exact = luts::ggx_albedo(mu, alpha, {}, {24});
+        const double found = std::min(1.0, E_ss.at(stretched_cosine(mu, alpha), std::sqrt(alpha)));
+        worst = std::max(worst, std::abs(found / exact - 1));
+    }
+    EXPECT_LT(worst, 7e-4);
+    EXPECT_NEAR(luts::builtin_table("ggx_E_avg").at(1.0), 0.409, 5e-4);
+}
+
+// Below the range that scenes use, down to the delta bound, the tables stay good.
+TEST(Tables, look_ups_reach_to_the_delta_bound)
+{
+    const TableView E_ss = luts::builtin_table("ggx_E_ss");
+    for (double alpha : {1e-5, 1e-4, 4e-4})
+        for (double mu : {1e-6, 1e-5, 1e-4, 1e-3, 0.1, 1.0})
+        {
+            const double found =
+                std::min(1.0, E_ss.at(stretched_cosine(mu, alpha), std::sqrt(alpha)));
+            EXPECT_NEAR(found / luts::ggx_albedo(mu, alpha), 1, 1e-3) << mu << " " << alpha;
+        }
+}
+
+// A stale table fails: spots of each file are baked again.
+TEST(Tables, files_match_their_definition)
+{
+    for (const std::string& name : luts::bakeable_tables())
+    {
+        const luts::Table table = luts::read_table(shipped(name));
+        EXPECT_EQ(table.name(), name);
+        Random random(8);
+        double worst = 0;
+        for (int i = 0; i < 200; ++i)
+        {
+            const double x = random.unit(), y = random.unit();
+            const double exact = luts::exact_value(name, x, y, 32);
+            const double found = table.height() > 1 ? table.view().at(x, y) : table.view().at(x);
+            const double error = table.info().error_kind == "relative"
+                                     ? std::min(found, 1.0) / exact - 1
+                                     : found - exact;
+            worst = std::max(worst, std::abs(error));
+        }
+        EXPECT_LT(worst, table.info().error * 1.05 + 3e-5) << name;
+    }
+}
+
+TEST(Tables, baking_again_gives_the_file)
+{
+    for (const std::string& name : luts::bakeable_tables())
+    {
+        const luts::Table now = luts::bake(name), file = luts::read_table(shipped(name));
+        ASSERT_EQ(now.values().size(), file.values().size());
+        for (std::size_t i = 0; i < now.values().size(); ++i)
+            ASSERT_NEAR(now.values()[i], file.values()[i], 1e-6) << name << " node " << i;
+        EXPECT_NEAR(now.info().error, file.info().error, 1e-6);
+    }
+}
+
+TEST(Tables, compiled_in_copies_are_the_files)
+{
+    for (const std::string& name : luts::bakeable_tables())
+    {
+        const luts::Table file = luts::read_table(shipped(name));
+        const TableView builtin = luts::builtin_table(name);
+        ASSERT_TRUE(builtin);
+        EXPECT_EQ(builtin.width, file.width());
+        EXPECT_EQ(builtin.height, file.height());
+        EXPECT_EQ(builtin.scale, file.view().scale);
+        EXPECT_EQ(builtin.offset, file.view().offset);
+        EXPECT_TRUE(std::equal(file.stored().begin(), file.stored().end(), builtin.data)) << name;
+    }
+    EXPECT_FALSE(luts::builtin_table("ggx_E"));
+}
+
+TEST_F(Files, round_trip)
+{
+    const luts::Table table = luts::read_table(shipped("ggx_E_avg"));
+    luts::write_table(file("copy.exr"), table);
+    const luts::Table copy = luts::read_table(file("copy.exr"));
+    EXPECT_EQ(copy.values(), table.values());
+    EXPECT_EQ(luts::embedded(copy), luts::embedded(table));
+    EXPECT_EQ(std::distance(fs::directory_iterator(file("copy.exr").parent_path()), {}), 1)
+        << "a temporary file was left";
+}
+
+TEST_F(Files, broken_files_say_what_is_wrong)
+{
+    EXPECT_NE(error_of(file("none.exr")).find("none.exr"), std::string::npos);
+
+    std::ofstream(file("text.exr")) << "not an image";
+    EXPECT_NE(error_of(file("text.exr")).find("text.exr"), std::string::npos);
+
+    fs::copy(shipped("ggx_E_ss"), file("short.exr"));
+    fs::resize_file(file("short.exr"), 2000);
+    EXPECT_NE(error_of(file("short.exr")).find("short.exr"), std::string::npos);
+
+    const luts::Table good = luts::read_table(shipped("ggx_E_avg"));
+    luts::TableInfo stale = good.info();
+    stale.definition = luts::table_definition + 1;
+    luts::write_table(file("stale.exr"),
+                      luts::Table(stale, good.width(), good.height(), good.values()));
+    EXPECT_NE(error_of(file("stale.exr")).find("bake it again"), std::string::npos);
+}
+
+TEST_F(Files, unwritable_targets_are_errors_and_leave_nothing)
+{
+    const luts::Table table = luts::read_table(shipped("ggx_E_avg"));
+    std::ofstream(file("plain")) << "x";
+    EXPECT_THROW(luts::write_table(file("plain") / "t.exr", table), std::runtime_error);
+    EXPECT_THROW(luts::write_table(file("missing") / "t.exr", table), std::runtime_error);
+    EXPECT_EQ(std::distance(fs::directory_iterator(file("plain").parent_path()), {}), 1);
+}
+
+TEST(Tables, values_out_of_range_are_refused)
+{
+    luts::TableInfo info;
+    info.scale = 1.0 / 65535;
+    EXPECT_THROW(luts::Table(info, 2, 1, {0.5f, 1.5f}), std::invalid_argument);
+    EXPECT_THROW(luts::Table(info, 2, 2, {0.5f, 0.5f}), std::invalid_argument);
+    EXPECT_THROW(luts::bake("ggx_E"), std::invalid_argument);
+}
+
+TEST(Tables, baking_can_be_stopped)
+{
+    EXPECT_THROW(luts::bake("ggx_E_ss", [](double done) { return done < 0.1; }), luts::BakeStopped);
+}
+
+}  // namespace

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+// The command as a user meets it: what it writes, what it refuses and how, and what an interrupt
+// leaves.
+
+#include "commands.h"
+#include "errors.h"
+
+#include <OpenImageIO/imageio.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace regain::tools { namespace {
+
+namespace fs = std::filesystem;
+
+class RenderCommand : public testing::Test
+{
+protected:
+    void SetUp() override
+    {
+        folder = fs::temp_directory_path() / ("regain_render_" + std::to_string(::getpid()));
+        fs::create_directories(folder);
+    }
+    void TearDown() override { fs::remove_all(folder); }
+
+    /// Exit code of `regain render` with these arguments; out and err hold what it said.
+    int run(std::vector<std::string> arguments)
+    {
+        CLI::App app;
+        int exit_code = kDone;
+        add_render(app, exit_code);
+        arguments.insert(arguments.begin(), "render");
+        std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());
+        testing::internal::CaptureStdout();
+        testing::internal::CaptureStderr();
+        try
+        {
+            app.parse(reversed);
+        }
+        catch (const CLI::ParseError& e)
+        {
+            exit_code = app.exit(e) == 0 ? kDone : kBadInput;
+        }
+        out = testing::internal::GetCapturedStdout();
+        err = testing::internal::GetCapturedStderr();
+        return exit_code;
+    }
+    std::string file(const std::string& name) const { return (folder / name).string(); }
+
+    static std::string attribute(const std::string& exr, const std::string& name)
+    {
+        const auto input = OIIO::ImageInput::open(exr);
+        return input ? std::string(input->spec().get_string_attribute(name)) : "no such file";
+    }
+    static std::vector<char> bytes(const std::string& path)
+    {
+        std::ifstream in(path, std::ios::binary);
+        return {std::istreambuf_iterator<char>(in), {}};
+    }
+
+    fs::path folder;
+    std::string out, err;
+};
+
+TEST_F(RenderCommand, WritesPicturesAndSaysHow)
+{
+    ASSERT_EQ(run({"-o", file("a.exr"), "--size", "64x48", "--spp", "2", "--alpha", "0.25,1",
+                   "--seed", "7", "--metal", "copper", "--json", "--quiet"}),
+              kDone)
+        << err;
+    const auto summary = nlohmann::json::parse(out);
+    EXPECT_EQ(summary.at("exr"), file("a.exr"));
+    EXPECT_EQ(summary.at("spp"), 2.0);
+    EXPECT_EQ(summary.at("partial"), false);
+    EXPECT_EQ(summary.at("non_finite"), 0);
+
+    const auto exr = OIIO::ImageInput::open(file("a.exr"));
+    ASSERT_TRUE(exr);
+    EXPECT_EQ(exr->spec().width, 64);
+    EXPECT_EQ(exr->spec().height, 48);
+    EXPECT_EQ(exr->spec().format, OIIO::TypeDesc::HALF);
+    EXPECT_EQ(attribute(file("a.exr"), "regain:method"), "none, turquin");
+    EXPECT_EQ(attribute(file("a.exr"), "regain:alpha"), "0.25, 1");
+    EXPECT_EQ(attribute(file("a.exr"), "regain:metal"), "copper");
+    EXPECT_EQ(attribute(file("a.exr"), "regain:seed"), "7");
+    EXPECT_EQ(attribute(file("a.exr"), "regain:spp"), "2");
+    EXPECT_EQ(attribute(file("a.exr"), "regain:partial"), "0");
+    const auto png = OIIO::ImageInput::open(file("a.png"));
+    ASSERT_TRUE(png);
+    EXPECT_EQ(png->spec().width, 64);
+}
+
+TEST_F(RenderCommand, FilesDoNotDependOnThreads)
+{
+    for (const std::string threads : {"1", "2"})
+        ASSERT_EQ(run({"--size", "80x60", "--spp", "3", "--quiet", "-o", file(threads + ".exr"),
+                       "--threads", threads}),
+                  kDone)
+            << err;
+    EXPECT_EQ(bytes(file("1.exr")), bytes(file("2.exr")));
+    EXPECT_EQ(bytes(file("1.png")), bytes(file("2.png")));
+}
+
+TEST_F(RenderCommand, RefusesBadInputBeforeItStarts)
+{
+    fs::create_directories(folder / "folder.exr");
+    const struct
+    {
+        std::vector<std::string> arguments;
+        const char* says;
+    } cases[] = {
+        {{"--spp", "0"}, "--spp 0: takes 1 to 65536"},
+        {{"--spp", "many"}, "--spp"},
+        {{"--seed", "-1"}, "--seed -1: takes 0 to 4294967295"},
+        {{"--threads", "5000"}, "--threads 5000: takes 0 to 1024"},
+        {{"--alpha", "0.5,1.5"}, "--alpha 1.5: takes"},
+        {{"--alpha", "nan"}, "--alpha nan: takes"},
+        {{"--alpha", "0.1,0.1,0.1,0.1,0.1,0.1,0.1,0.1,0.1,0.1,0.1,0.1,0.1,0.1,0.1,0.1,0.1"},
+         "17 values"},
+        {{"--metal", "mithril"}, "--metal mithril: no such metal; there are aluminium"},
+        {{"--method", "magic"}, "--method magic: no such method; there are none"},
+        {{"--host", "abacus"}, "--host abacus: no such host"},
+        {{"--size", "0x10"}, "--size 0x10: takes WIDTHxHEIGHT"},
+        {{"--size", "64x64x"}, "--size 64x64x: takes"},
+        {{"--size", "99999x64"}, "--size 99999x64: takes"},
+        {{"--display", "wall"}, "--display wall: no such display"},
+        {{"--view", "sea"}, "--view sea: no such view"},
+        {{"--environment", "nowhere.exr"}, "nowhere.exr: no such file"},
+        {{"-o", file("a.png")}, "must end in .exr"},
+        {{"-o", file("none/a.exr")}, "there is no folder"},
+        {{"-o", file("folder.exr")}, "is a folder"},
+    };
+    for (const auto& c : cases)
+    {
+        auto arguments = c.arguments;
+        if (arguments.front() != "-o") arguments.insert(arguments.end(), {"-o", file("bad.exr")});
+        EXPECT_EQ(run(arguments), kBadInput) << c.says;
+        EXPECT_NE(err.find(c.says), std::string::npos) << c.says << "\nbut: " << err;
+        EXPECT_FALSE(fs::exists(file("bad.exr")));
+    }
+}
+
+TEST_F(RenderCommand, InterruptLeavesAMarkedPicture)
+{
+    std::thread user([] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+        ::kill(::getpid(), SIGINT);
+    });
+    const int exit_code = run({"-o", file("stopped.exr"), "--size", "64x48", "--spp", "65536"});
+    user.join();
+    EXPECT_EQ(exit_code, kInterrupted) << err;
+    EXPECT_EQ(attribute(file("stopped.exr"), "regain:partial"), "1");
+    EXPECT_TRUE(fs::exists(file("stopped.png")));
+    EXPECT_NE(out.find("interrupted"), std::string::npos) << out;
+}
+
+TEST_F(RenderCommand, HelpHasExamples)
+{
+    EXPECT_EQ(run({"--help"}), kDone);
+    EXPECT_NE(out.find("Examples:"), std::string::npos);
+}
+
+}}  // namespace regain::tools

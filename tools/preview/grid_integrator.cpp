@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+#include "grid_integrator.h"
+
+#include "arena.h"
+
+#include <utility>
+
+namespace regain::tools::preview {
+
+using Imath::C3f;
+using Imath::V2f;
+using Imath::V3f;
+
+namespace {
+
+constexpr int kBatch = 256;  // points per call: their arrays stay in the cache
+
+/// The host's random numbers for one batch: each point draws from its own path's sampler.
+class BatchRng final : public renderman::Rng
+{
+public:
+    void start(const Sampler* const* samplers, int n, std::uint32_t domain)
+    {
+        _samplers = samplers;
+        _n = n;
+        _domain = domain;
+    }
+    void draw1D(float* xi) override
+    {
+        for (int i = 0; i < _n; ++i) xi[i] = _samplers[i]->get1D(sobol::hash(_domain, 1));
+    }
+    void draw2D(V2f* xi) override
+    {
+        for (int i = 0; i < _n; ++i) xi[i] = _samplers[i]->get2D(sobol::hash(_domain, 2));
+    }
+    void newDomain(std::uint32_t scramble) override
+    {
+        _domain = sobol::hash(_domain, scramble + 3u);
+    }
+
+private:
+    const Sampler* const* _samplers = nullptr;
+    int _n = 0;
+    std::uint32_t _domain = 0;
+};
+
+}  // namespace
+
+struct GridIntegrator::Path : PathState
+{
+    Sampler sampler;
+    Hit hit;
+};
+
+/// Arrays of one batch, as the interface wants them.
+struct GridIntegrator::Workspace
+{
+    Arena arena;
+    BatchRng rng;
+    const Sampler* samplers[kBatch];
+    V3f view[kBatch], normal[kBatch], geometric_normal[kBatch], tangent[kBatch];
+
+    Environment::Light light[kBatch];
+    V3f direction[kBatch];
+    renderman::LobeSet wanted[kBatch], evaluated[kBatch];
+    renderman::Lobe sampled[kBatch];
+    C3f weights[static_cast<std::size_t>(renderman::kMaxActive) * kBatch];
+    float forward_pdf[kBatch], reverse_pdf[kBatch];
+};
+
+GridIntegrator::GridIntegrator(const World& world, std::vector<GridMaterial> materials)
+    : _world(world), _materials(std::move(materials))
+{}
+
+void GridIntegrator::render(const Tile& tile, int first, int count, Film& film) const
+{
+    const int width = tile.x1 - tile.x0, height = tile.y1 - tile.y0;
+    std::vector<Path> paths(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
+                            static_cast<std::size_t>(count));
+    const auto workspace = std::make_unique<Workspace>();
+
+    std::size_t next = 0;
+    for (int y = tile.y0; y < tile.y1; ++y)
+        for (int x = tile.x0; x < tile.x1; ++x)
+            for (int s = first; s < first + count; ++s)
+            {
+                Path& path = paths[next++];
+                path.sampler = Sampler(x, y, s, _world.seed);
+                path.ray = camera_ray(_world, x, y, path.sampler);
+            }
+
+    std::vector<Path*> alive;
+    alive.reserve(paths.size());
+    for (Path& path : paths) alive.push_back(&path);
+    std::vector<std::vector<Path*>> by_material(_materials.size());
+
+    for (int bounce = 0; !alive.empty(); ++bounce)
+    {
+        for (auto& group : by_material) group.clear();
+        for (Path* path : alive)
+        {
+            if (!_world.scene.intersect(path->ray, &path->hit))
+                add_environment(_world.environment, *path);
+            else if (bounce < _world.max_bounces)
+                by_material[static_cast<std::size_t>(path->hit.material)].push_back(path);
+        }
+        alive.clear();
+        for (std::size_t m = 0; m < by_material.size(); ++m)
+        {
+            std::vector<Path*>& group = by_material[m];
+            for (std::size_t begin = 0; begin < group.size(); begin += kBatch)
+            {
+                const int n = static_cast<int>(std::min<std::size_t>(kBatch, group.size() - begin));
+                shade(_materials[m], &group[begin], n, bounce, *workspace);
+                for (int i = 0; i < n; ++i)
+                {
+                    Path* path = group[begin + static_cast<std::size_t>(i)];
+                    if (max_channel(path->throughput) > 0.0f &&
+                        survives(*path, bounce, path->sampler))
+                        alive.push_back(path);
+                }
+            }
+        }
+    }
+
+    next = 0;
+    for (int y = tile.y0; y < tile.y1; ++y)
+        for (int x = tile.x0; x < tile.x1; ++x)
+            for (int s = 0; s < count; ++s) film.add(x, y, paths[next++].radiance);
+}
+
+/// Adds direct light to each path and gives it its next ray; a throughput of 0 ends a path.
+void GridIntegrator::shade(const GridMaterial& material, Path* const* paths, int n, int bounce,
+                           Workspace& w) const
+{
+    w.arena.reset();
+    for (int i = 0; i < n; ++i)
+    {
+        const Hit& hit = paths[i]->hit;
+        w.samplers[i] = &paths[i]->sampler;
+        w.view[i] = -paths[i]->ray.direction;
+        w.normal[i] = hit.normal;
+        w.geometric_normal[i] = hit.geometric_normal;
+        w.tangent[i] = hit.tangent;
+        w.wanted[i] = renderman::LobeSet::all();
+    }
+
+    renderman::ShadingContext context;
+    context.numPts = n;
+    context.Vn = w.view;
+    context.Nn = w.normal;
+    context.Ngn = w.geometric_normal;
+    context.Tn = w.tangent;
+    context.allocFn = &Arena::allocate_from;
+    context.arena = &w.arena;
+    renderman::Bxdf* bxdf = material.factory->beginScatter(&context, renderman::LobeSet::all(),
+                                                           renderman::ShadeMode::Scatter, nullptr,
+                                                           material.instance_data);
+    if (!bxdf) throw std::bad_alloc();
+
+    const auto is_reflection = [&](int i, const V3f& direction) {
+        return direction.dot(w.geometric_normal[i]) * w.view[i].dot(w.geometric_normal[i]) > 0.0f;
+    };
+    // Whether evaluating towards a direction can give anything.
+    const renderman::Domain domain = bxdf->evaluateDomain();
+    const auto in_domain = [&](int i, const V3f& direction) {
+        const bool outside = w.view[i].dot(w.geometric_normal[i]) > 0.0f;
+        const bool reflect = is_reflection(i, direction);
+        const unsigned place =
+            outside ? (reflect ? renderman::kOutsideReflect : renderman::kOutsideTransmit)
+                    : (reflect ? renderman::kInsideReflect : renderman::kInsideTransmit);
+        return (domain & place) != 0;
+    };
+
+    // Next-event estimation: points without a useful light direction sit the call out.
+    for (int i = 0; i < n; ++i)
+    {
+        const V2f u = paths[i]->sampler.get2D(dimension(Draw::Light, bounce));
+        const Environment::Sample sample = _world.environment.sample(u);
+        w.light[i] = sample.light;
+        w.direction[i] = sample.direction;
+        if (!(w.light[i].pdf > 0.0f) || !in_domain(i, w.direction[i])) w.wanted[i].clear();
+    }
+    {
+        renderman::LobeWeights weights(w.weights, n);
+        w.rng.start(w.samplers, n, dimension(Draw::Evaluate, bounce));
+        bxdf->evaluateSample(renderman::kDirect, w.wanted, &w.rng, w.evaluated, w.direction,
+                             weights, w.forward_pdf, w.reverse_pdf);
+        for (int i = 0; i < n; ++i)
+        {
+            if (!w.wanted[i].any() || !w.evaluated[i].any()) continue;
+            const C3f value = weights.total(i);
+            if (value == C3f(0.0f)) continue;
+            if (_world.scene.occluded(paths[i]->hit.leave(w.direction[i]))) continue;
+            const Environment::Light& light = w.light[i];
+            const float share = mis_weight(light.pdf, w.forward_pdf[i]) / light.pdf;
+            paths[i]->radiance += paths[i]->throughput * value * light.radiance * share;
+        }
+    }
+
+    // The next direction.
+    for (int i = 0; i < n; ++i) w.wanted[i] = renderman::LobeSet::all();
+    renderman::LobeWeights weights(w.weights, n);
+    w.rng.start(w.samplers, n, dimension(Draw::Scatter, bounce));
+    bxdf->generateSample(renderman::kAnyLighting, w.wanted, &w.rng, w.sampled, w.direction, weights,
+                         w.forward_pdf, w.reverse_pdf, nullptr);
+    for (int i = 0; i < n; ++i)
+    {
+        Path& path = *paths[i];
+        // A lobe that scatters to the wrong side of the true surface does so only because normals
+        // are interpolated.
+        if (!w.sampled[i].valid || !(w.forward_pdf[i] > 0.0f) ||
+            is_reflection(i, w.direction[i]) != w.sampled[i].reflect)
+        {
+            path.throughput = C3f(0.0f);
+            continue;
+        }
+        path.throughput *= weights.total(i) / w.forward_pdf[i];
+        path.ray = path.hit.leave(w.direction[i]);
+        path.pdf = w.forward_pdf[i];
+        path.alone = w.sampled[i].discrete;
+    }
+    material.factory->endScatter(bxdf);
+}
+
+}  // namespace regain::tools::preview

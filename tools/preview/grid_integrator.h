@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+/// @file
+/// The integrator of the batched host shape: whole tiles advance bounce by bounce, and the points
+/// that share a material are shaded in one call. Knows closures only through
+/// regain/renderman/host.h.
+
+#pragma once
+
+#include "integrator.h"
+
+#include <regain/renderman/host.h>
+
+#include <vector>
+
+namespace regain::tools::preview {
+
+struct GridMaterial
+{
+    renderman::Factory* factory = nullptr;
+    void* instance_data = nullptr;
+};
+
+class GridIntegrator final : public Integrator
+{
+public:
+    /// `materials` by the material index of the scene's placements.
+    GridIntegrator(const World&, std::vector<GridMaterial> materials);
+
+    void render(const Tile&, int first, int count, Film&) const override;
+
+private:
+    struct Workspace;
+    struct Path;
+
+    void shade(const GridMaterial&, Path* const* paths, int n, int bounce, Workspace&) const;
+
+    World _world;
+    std::vector<GridMaterial> _materials;
+};
+
+}  // namespace regain::tools::preview

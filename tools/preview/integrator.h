@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+/// @file
+/// What both preview integrators share: path tracing with next-event estimation on the environment
+/// and multiple importance sampling. They differ only in the host interface through which they know
+/// their materials.
+
+#pragma once
+
+#include "camera.h"
+#include "environment.h"
+#include "film.h"
+#include "sampler.h"
+#include "scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace regain::tools::preview {
+
+/// Everything but the materials. The references outlive the integrator.
+struct World
+{
+    const Scene& scene;
+    const Environment& environment;
+    const Camera& camera;
+    int width, height;  ///< of the frame, pixels
+    std::uint32_t seed = 1;
+    int max_bounces = 8;  ///< surface interactions per path
+};
+
+/// Pixels [x0, x1) x [y0, y1).
+struct Tile
+{
+    int x0, y0, x1, y1;
+};
+
+class Integrator
+{
+public:
+    virtual ~Integrator() = default;
+
+    /// Adds samples [first, first + count) of every pixel of the tile to the film. Any number of
+    /// threads, on tiles that do not overlap.
+    virtual void render(const Tile&, int first, int count, Film&) const = 0;
+};
+
+/// Dimensions of the sampler: each bounce has a block of its own.
+enum class Draw : std::uint32_t { Pixel, Light, Evaluate, Scatter, Lobe, Roulette };
+inline std::uint32_t dimension(Draw draw, int bounce)
+{
+    return static_cast<std::uint32_t>(draw) + 64u * static_cast<std::uint32_t>(bounce);
+}
+
+/// Camera ray of one sample, through a tent filter two pixels wide.
+inline Ray camera_ray(const World& world, int x, int y, const Sampler& sampler)
+{
+    const auto tent = [](float u) {
+        return u < 0.5f ? std::sqrt(2.0f * u) - 1.0f : 1.0f - std::sqrt(2.0f - 2.0f * u);
+    };
+    const Imath::V2f u = sampler.get2D(dimension(Draw::Pixel, 0));
+    return world.camera.ray((static_cast<float>(x) + 0.5f + tent(u.x)) / float(world.width),
+                            (static_cast<float>(y) + 0.5f + tent(u.y)) / float(world.height));
+}
+
+/// Power heuristic (Veach) for one sample of each technique: the share of the one with pdf `a`.
+inline float mis_weight(float a, float b)
+{
+    if (!(a > 0.0f)) return 0.0f;
+    const float ratio = b / a;  // squaring the pdfs themselves could overflow
+    return 1.0f / (1.0f + ratio * ratio);
+}
+
+inline float max_channel(const Imath::C3f& c) { return std::max({c.x, c.y, c.z}); }
+inline float luminance(const Imath::C3f& c)
+{
+    return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z;
+}
+
+/// Where a path stands between two bounces.
+struct PathState
+{
+    Ray ray;
+    Imath::C3f throughput{1.0f};
+    Imath::C3f radiance{0.0f};
+    float pdf = 0.0f;   ///< with which the closure chose `ray`, per steradian
+    bool alone = true;  ///< next-event estimation could not have found this light: no weighting
+};
+
+/// Light that the path's ray finds when it leaves the scene.
+inline void add_environment(const Environment& environment, PathState& path)
+{
+    const Environment::Light light = environment.at(path.ray.direction);
+    const float weight = path.alone ? 1.0f : mis_weight(path.pdf, light.pdf);
+    path.radiance += path.throughput * light.radiance * weight;
+}
+
+/// Ends dim paths by chance from the fourth bounce on, without bias. A throughput of 1, as white
+/// compensated closures have, always goes on.
+inline bool survives(PathState& path, int bounce, const Sampler& sampler)
+{
+    if (bounce < 3) return true;
+    const float chance = std::min(max_channel(path.throughput), 1.0f);
+    if (sampler.get1D(dimension(Draw::Roulette, bounce)) >= chance) return false;
+    path.throughput /= chance;
+    return true;
+}
+
+}  // namespace regain::tools::preview

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+#include "scene.h"
+
+#include <embree3/rtcore.h>
+
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace regain::tools::preview {
+
+using Imath::V3f;
+
+namespace {
+
+constexpr float kOffset = 1e-4f;
+
+V3f blend(const std::vector<V3f>& v, const std::array<std::uint32_t, 3>& t, float b, float c)
+{
+    return v[t[0]] * (1.0f - b - c) + v[t[1]] * b + v[t[2]] * c;
+}
+
+RTCRay to_embree(const Ray& ray)
+{
+    RTCRay r{};
+    r.org_x = ray.origin.x, r.org_y = ray.origin.y, r.org_z = ray.origin.z;
+    r.dir_x = ray.direction.x, r.dir_y = ray.direction.y, r.dir_z = ray.direction.z;
+    r.tnear = 0.0f;
+    r.tfar = std::numeric_limits<float>::infinity();
+    r.mask = ~0u;
+    return r;
+}
+
+}  // namespace
+
+Ray Hit::leave(const V3f& direction) const
+{
+    const float side = direction.dot(geometric_normal) < 0.0f ? -kOffset : kOffset;
+    return {position + geometric_normal * side, direction};
+}
+
+struct Scene::Impl
+{
+    struct Placement
+    {
+        int mesh;
+        V3f offset;
+        int material;
+    };
+
+    RTCDevice device = nullptr;
+    RTCScene scene = nullptr;
+    std::vector<RTCScene> mesh_scenes;
+    std::vector<Mesh> meshes;
+    std::vector<Placement> placements;
+
+    void check(const char* step) const
+    {
+        const RTCError error = rtcGetDeviceError(device);
+        if (error != RTC_ERROR_NONE)
+            throw std::runtime_error(std::string("Embree failed to ") + step + " (error " +
+                                     std::to_string(static_cast<int>(error)) + ")");
+    }
+    ~Impl()
+    {
+        for (RTCScene s : mesh_scenes) rtcReleaseScene(s);
+        if (scene) rtcReleaseScene(scene);
+        if (device) rtcReleaseDevice(device);
+    }
+};
+
+Scene::Scene() : _impl(std::make_unique<Impl>())
+{
+    _impl->device = rtcNewDevice("threads=1");
+    _impl->check("start");
+    _impl->scene = rtcNewScene(_impl->device);
+    rtcSetSceneFlags(_impl->scene, RTC_SCENE_FLAG_ROBUST);
+}
+
+Scene::~Scene() = default;
+
+int Scene::add_mesh(Mesh m)
+{
+    _impl->meshes.push_back(std::move(m));
+    const Mesh& mesh = _impl->meshes.back();
+
+    RTCGeometry geometry = rtcNewGeometry(_impl->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* vertices = static_cast<float*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                3 * sizeof(float), mesh.positions.size()));
+    auto* indices = static_cast<std::uint32_t*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                3 * sizeof(std::uint32_t), mesh.triangles.size()));
+    _impl->check("take a mesh");
+    for (const V3f& p : mesh.positions)
+        for (unsigned k = 0; k < 3; ++k) *vertices++ = p[k];
+    for (const auto& triangle : mesh.triangles)
+        for (const std::uint32_t index : triangle) *indices++ = index;
+    rtcCommitGeometry(geometry);
+
+    RTCScene scene = rtcNewScene(_impl->device);
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
+    rtcAttachGeometry(scene, geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(scene);
+    _impl->mesh_scenes.push_back(scene);
+    _impl->check("build a mesh");
+    return static_cast<int>(_impl->meshes.size()) - 1;
+}
+
+void Scene::place(int mesh, const V3f& offset, int material)
+{
+    RTCGeometry instance = rtcNewGeometry(_impl->device, RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(instance, _impl->mesh_scenes.at(static_cast<std::size_t>(mesh)));
+    const float transform[12] = {1, 0, 0, 0, 1, 0, 0, 0, 1, offset.x, offset.y, offset.z};
+    rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, transform);
+    rtcCommitGeometry(instance);
+    rtcAttachGeometryByID(_impl->scene, instance, static_cast<unsigned>(_impl->placements.size()));
+    rtcReleaseGeometry(instance);
+    _impl->placements.push_back({mesh, offset, material});
+    _impl->check("place a mesh");
+}
+
+void Scene::commit()
+{
+    rtcCommitScene(_impl->scene);
+    _impl->check("build the scene");
+}
+
+bool Scene::intersect(const Ray& ray, Hit* hit) const
+{
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRayHit query{};
+    query.ray = to_embree(ray);
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(_impl->scene, &context, &query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
+
+    const Impl::Placement& placement = _impl->placements[query.hit.instID[0]];
+    const Mesh& mesh = _impl->meshes[static_cast<std::size_t>(placement.mesh)];
+    const auto& triangle = mesh.triangles[query.hit.primID];
+    const float b = query.hit.u, c = query.hit.v;
+
+    hit->material = placement.material;
+    // From the corners, not along the ray: the error is that of the mesh's size, not the distance.
+    hit->position = blend(mesh.positions, triangle, b, c) + placement.offset;
+    V3f ns = blend(mesh.normals, triangle, b, c).normalized();
+    V3f ng = V3f(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z).normalized();
+    if (ng.dot(ns) < 0.0f) ng = -ng;
+
+    // Near silhouettes an interpolated normal can face away while its triangle does not.
+    const float facing = ng.dot(ray.direction) < 0.0f ? -1.0f : 1.0f;
+    const float cosine = facing * ns.dot(ray.direction);
+    constexpr float kLeast = 1e-3f;
+    if (cosine < kLeast) ns = (ns + ray.direction * (facing * (kLeast - cosine))).normalized();
+
+    V3f t = blend(mesh.tangents, triangle, b, c);
+    t -= ns * ns.dot(t);
+    hit->geometric_normal = ng;
+    hit->normal = ns;
+    hit->tangent = t.length2() > 1e-8f ? t.normalized() : perpendicular(ns);
+    return true;
+}
+
+bool Scene::occluded(const Ray& ray) const
+{
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRay r = to_embree(ray);
+    rtcOccluded1(_impl->scene, &context, &r);
+    return r.tfar < 0.0f;
+}
+
+}  // namespace regain::tools::preview

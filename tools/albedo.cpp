@@ -163,8 +163,10 @@ void add_albedo(CLI::App& app, int& exit_code)
     command->add_option("--strength", a->strength, "of the method, in [0, 1]; 1");
     add_numbers(command, "--mu", a->mu, 1 << 20, "cosines; 0.01,0.1,0.2,0.5,0.8,1");
     command->add_option("--how", a->how, "quadrature (default), table, monte-carlo");
-    command->add_option("--n-samples", a->samples, "of Monte Carlo, for each number; 65536");
-    command->add_option("--seed", a->seed, "of Monte Carlo; 0");
+    command->add_option("--n-samples", a->samples, "of Monte Carlo, for each number; 65536")
+        ->check(CLI::NonNegativeNumber);
+    // CLI11 takes -1 for the largest number there is.
+    command->add_option("--seed", a->seed, "of Monte Carlo; 0")->check(CLI::NonNegativeNumber);
     command->add_option("--precision", a->precision, "float (default), double");
     command->add_flag("--json", a->json, "one JSON object in place of the table");
     command->callback([a, &exit_code] { exit_code = run_reporting([&] { return run(*a); }); });

@@ -3,7 +3,7 @@
 
 /// @file
 /// Are the tables that are shipped still what their definition says? A table that was baked again
-/// is compared node by node; or, in a second instead of a minute, the shipped numbers are compared
+/// is compared node by node; or, in a second instead of ten, the shipped numbers are compared
 /// with exact values at a few places.
 
 #pragma once

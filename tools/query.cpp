@@ -56,8 +56,7 @@ answers
            "delta" for a mirror; {"event":"none"}; with n {"samples":[...]}
   albedo   {"reflect":[r,g,b],"transmit":[r,g,b],"stderr":e,"how":".."}; stderr is the difference
            from a quadrature of half the nodes, the standard error of Monte Carlo, or null
-  gain     {"gain":[r,g,b],"form":"gain(wo)"
-}
+  gain     {"gain":[r,g,b],"form":"gain(wo)"}
   fresnel  {"value":[r,g,b],"average":[r,g,b]}
   ndf      {"D":..,"lambda":..,"G1":..,"D_visible":..}
 

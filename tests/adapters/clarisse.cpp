@@ -228,6 +228,52 @@ TYPED_TEST(ClarisseAdapter, light_does_not_leak_through_the_surface)
     EXPECT_GT(declined, 50);
 }
 
+// A renderer's own material with a gain hook of its own, in place of one of Regain's.
+struct HookedMetal
+{
+    struct Double
+    {
+        Color3<float> at(const Vec3<float>&) const { return Color3<float>(2.0f); }
+    };
+    template <class Real>
+    auto closure(Real) const
+    {
+        return compensated(artists_gold<float>(0.4, 0.4), Double());
+    }
+    const char* lobe_name() const { return "hooked"; }
+};
+
+TEST(Adapters, take_a_material_with_a_hook_of_its_own)
+{
+    const auto wo = direction<float>(0.7), wi = direction<float>(0.5, 2.0);
+    const auto expected = artists_gold<float>(0.4, 0.4).eval(wo, wi) * 2.0f;
+
+    HookedMetal metal;
+    GridHost host(1);
+    host.V[0] = wo;
+    renderman::ClosureFactory<HookedMetal> factory;
+    renderman::LobeWeights w = host.weights();
+    const renderman::LobeSet wanted = renderman::LobeSet::all();
+    renderman::LobeSet evaluated;
+    float fwd, rev;
+    factory.beginScatter(&host.ctx, wanted, renderman::ShadeMode::Scatter, nullptr, &metal)
+        ->evaluateSample(renderman::kDirect, &wanted, &host.rng, &evaluated, &wi, w, &fwd, &rev);
+    EXPECT_TRUE(w.total(0).equalWithAbsError(expected, 1e-5f));
+
+    shading_point<float> p;
+    p.ng = p.ns = {0, 0, 1};
+    p.tangent = {1, 0, 0};
+    p.view = wo;
+    alignas(64) char memory[4096];
+    scratchpad pad(memory, sizeof memory);
+    lobe_list<float> list;
+    ASSERT_TRUE((closure_callbacks<HookedMetal, float>().create_lobes(&metal, p, pad, list)));
+    EXPECT_STREQ(list[0].lobe->label().name, "hooked");
+    color<float> weight;
+    const float pdf = list[0].lobe->evaluate(wo, wi, weight, nullptr);
+    EXPECT_TRUE((weight * pdf).equalWithAbsError(expected, 1e-5f));
+}
+
 // Both hosts are told the same about one material, each in its own terms.
 TEST(Adapters, say_the_same)
 {

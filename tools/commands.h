@@ -14,7 +14,9 @@ class App;
 namespace regain::tools {
 
 // Add each command here and in main.cpp, in the order in which --help should list them.
-
-void add_render(CLI::App&, int& exit_code);
+void add_render(CLI::App& app, int& exit_code);
+void add_albedo(CLI::App& app, int& exit_code);
+void add_query(CLI::App& app, int& exit_code);
+void add_bake(CLI::App& app, int& exit_code);
 
 }  // namespace regain::tools

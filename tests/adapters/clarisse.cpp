@@ -194,12 +194,12 @@ TYPED_TEST(ClarisseAdapter, a_full_scratchpad_is_an_answer)
 {
     using Real = TypeParam;
     char small[64];
-    scratchpad pad(small, sizeof small);
-    lobe_list<Real> list;
+    scratchpad tight(small, sizeof small);
+    lobe_list<Real> none;
     const auto metal = gold_material(0.3f);
     const auto callbacks = closure_callbacks<shaders::SchlickMetal, Real>();
-    EXPECT_FALSE(callbacks.create_lobes(&metal, this->point(direction<Real>(0.6)), pad, list));
-    EXPECT_EQ(list.size(), 0);
+    EXPECT_FALSE(callbacks.create_lobes(&metal, this->point(direction<Real>(0.6)), tight, none));
+    EXPECT_EQ(none.size(), 0);
 }
 
 TYPED_TEST(ClarisseAdapter, light_does_not_leak_through_the_surface)

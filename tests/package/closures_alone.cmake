@@ -17,7 +17,7 @@ configure_and_build(${SOURCE_DIR} ${SCRATCH}/build ${other_packages}
   -DREGAIN_BUILD_LUTS=OFF -DREGAIN_BUILD_SHADERS=OFF -DREGAIN_BUILD_ADAPTERS=OFF
   -DREGAIN_BUILD_TOOLS=OFF -DREGAIN_BUILD_TESTS=OFF -DREGAIN_BUILD_BENCHMARKS=OFF)
 install(${SCRATCH}/build ${SCRATCH}/prefix)
-check_manifest(${SCRATCH}/prefix closures)
+check_parts(${SCRATCH}/prefix closures)
 
 # On many systems all libraries share one include folder, where a stray include would be found.
 file(GLOB_RECURSE headers ${SCRATCH}/prefix/include/*.h)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright Contributors to the Regain project
 
-# Regain builds as shared libraries, installs the same files, shows nothing internal to those who
+# Regain builds as shared libraries, installs, shows nothing internal to those who
 # link it, and the consumer runs against it.
 
 include(${CMAKE_CURRENT_LIST_DIR}/common.cmake)
@@ -14,7 +14,7 @@ configure_and_build(${SOURCE_DIR} ${SCRATCH}/build -DBUILD_SHARED_LIBS=ON
 install(${SCRATCH}/build ${SCRATCH}/prefix)
 separate_arguments(parts UNIX_COMMAND "${PARTS}")
 list(REMOVE_ITEM parts conformance)
-check_manifest(${SCRATCH}/prefix ${parts})
+check_parts(${SCRATCH}/prefix ${parts})
 
 find_program(NM nm)
 file(GLOB_RECURSE libraries ${SCRATCH}/prefix/*.so)

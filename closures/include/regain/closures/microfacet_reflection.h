@@ -17,6 +17,7 @@
 #pragma once
 
 #include <regain/closures/closure.h>
+#include <regain/closures/fresnel_moments.h>
 #include <regain/closures/table.h>
 
 REGAIN_NAMESPACE_BEGIN

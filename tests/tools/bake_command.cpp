@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+#include "command.h"
+
+#include <regain/luts/bake.h>
+#include <regain/luts/builtin.h>
+#include <regain/luts/exr.h>
+
+#include <signal.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <thread>
+
+using nlohmann::json;
+using test::says;
+
+namespace {
+
+class BakeCommand : public test::Command
+{
+protected:
+    std::size_t files() const
+    {
+        return static_cast<std::size_t>(
+            std::distance(std::filesystem::directory_iterator(folder / "tables"), {}));
+    }
+    // The shipped table with one number changed.
+    std::string tampered() const
+    {
+        const regain::luts::Table shipped =
+            regain::luts::read_table(REGAIN_TABLES "/ggx_E_avg.exr");
+        std::vector<float> values = shipped.values();
+        values[7] += 1e-3f;
+        const std::filesystem::path file = folder / "tampered.exr";
+        regain::luts::write_table(
+            file, regain::luts::Table(shipped.info(), shipped.width(), shipped.height(), values));
+        return file.string();
+    }
+};
+
+}  // namespace
+
+TEST_F(BakeCommand, writes_the_table_that_is_shipped)
+{
+    const auto o = run("bake ggx_E_avg -o FOLDER/new/tables --embed FOLDER/embedded --json");
+    ASSERT_EQ(o.code, 0) << o.err;
+    const json report = o.json();
+    ASSERT_EQ(report.size(), 1u);
+    EXPECT_EQ(report[0]["table"], "ggx_E_avg");
+    EXPECT_EQ(report[0]["width"], 32);
+    EXPECT_LT(report[0]["error"], 1e-3);
+    EXPECT_EQ(report[0]["files"].size(), 2u);
+
+    const auto table = regain::luts::read_table(folder / "new/tables/ggx_E_avg.exr");
+    const regain::TableView shipped = regain::luts::builtin_table("ggx_E_avg");
+    for (std::size_t i = 0; i < 32; ++i) EXPECT_EQ(table.stored()[i], shipped.data[i]);
+    EXPECT_TRUE(says(read("embedded/ggx_E_avg.inc"), "constexpr TableView ggx_E_avg"));
+}
+
+TEST_F(BakeCommand, verify_passes_what_is_shipped)
+{
+    const auto o = run("bake --verify ggx_E_avg " REGAIN_TABLES "/ggx_E_avg.exr --json");
+    EXPECT_EQ(o.code, 0) << o.err;
+    const json report = o.json();
+    ASSERT_EQ(report.size(), 2u);
+    for (const json& check : report) EXPECT_TRUE(check["passed"]) << check;
+    EXPECT_EQ(report[0]["against"], "compiled in");
+}
+
+TEST_F(BakeCommand, verify_names_the_node_that_was_tampered_with)
+{
+    const auto o = run("bake --verify " + tampered());
+    EXPECT_EQ(o.code, 1);
+    EXPECT_TRUE(says(o.out, "same   ggx_E_avg")) << o.out;
+    EXPECT_TRUE(says(o.out, "DIFFER ggx_E_avg")) << o.out;
+    EXPECT_TRUE(says(o.out, "node (7, 0): shipped ")) << o.out;
+    EXPECT_TRUE(says(o.err, "1 of 2 tables")) << o.err;
+}
+
+TEST_F(BakeCommand, spots_of_all_tables_are_quick)
+{
+    const auto o = run("bake --verify --spot 10 --json");
+    EXPECT_EQ(o.code, 0) << o.err;
+    EXPECT_EQ(o.json().size(), regain::luts::bakeable_tables().size());
+    EXPECT_EQ(o.json()[0]["numbers"], 10);
+}
+
+TEST_F(BakeCommand, a_corrupt_file_is_bad_input)
+{
+    write("broken.exr", "no picture");
+    const auto broken = run("bake --verify FOLDER/broken.exr");
+    EXPECT_EQ(broken.code, 2);
+    EXPECT_TRUE(says(broken.err, "broken.exr")) << broken.err;
+
+    std::ifstream whole(REGAIN_TABLES "/ggx_E_ss.exr", std::ios::binary);
+    std::ostringstream text;
+    text << whole.rdbuf();
+    write("cut.exr", text.str().substr(0, text.str().size() / 2));
+    const auto cut = run("bake --verify FOLDER/cut.exr");
+    EXPECT_EQ(cut.code, 2);
+    EXPECT_TRUE(says(cut.err, "cannot use table")) << cut.err;
+}
+
+TEST_F(BakeCommand, a_file_that_is_not_there_is_bad_input)
+{
+    const auto o = run("bake --verify FOLDER/none.exr");
+    EXPECT_EQ(o.code, 2);
+    EXPECT_TRUE(says(o.err, "none.exr")) << o.err;
+}
+
+TEST_F(BakeCommand, an_output_that_cannot_be_written_is_told_before_baking)
+{
+    // Root may write anywhere, but not below a file.
+    write("file", "");
+    for (const char* option : {"-o", "--embed"})
+    {
+        const auto o = run(std::string("bake ") + option + " FOLDER/file/tables");
+        EXPECT_EQ(o.code, 2);
+        EXPECT_TRUE(says(o.err, "cannot write to the folder")) << o.err;
+        EXPECT_EQ(o.out, "");
+    }
+    EXPECT_EQ(run("bake -o FOLDER/file").code, 2);
+}
+
+TEST_F(BakeCommand, wrong_arguments_are_bad_input)
+{
+    for (const auto& [arguments, part] : std::vector<std::pair<std::string, std::string>>{
+             {"", "nothing to do"},
+             {"ggx_E_sss -o FOLDER", "accepted: ggx_E_ss, ggx_E_avg"},
+             {"-o FOLDER --spot 3", "--spot belongs to --verify"},
+             {"--verify -o FOLDER", "--verify writes nothing"},
+             {"--verify --spot 0", "spot"},
+             {"--verfiy", "verfiy"}})
+    {
+        const auto o = run("bake " + arguments);
+        EXPECT_EQ(o.code, 2) << arguments;
+        EXPECT_TRUE(says(o.err, part)) << arguments << ": " << o.err;
+    }
+}
+
+TEST_F(BakeCommand, an_interrupt_leaves_nothing_behind)
+{
+    const std::string tables = (folder / "tables").string();
+    const pid_t child = ::fork();
+    ASSERT_GE(child, 0);
+    if (child == 0)
+    {
+        ::execl(REGAIN_BINARY, REGAIN_BINARY, "bake", "-o", tables.c_str(),
+                static_cast<char*>(nullptr));
+        ::_exit(127);
+    }
+    // Once there is the folder, it bakes.
+    for (int i = 0; i < 1000 && !std::filesystem::exists(tables); ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    ::kill(child, SIGINT);
+    int status = -1;
+    ::waitpid(child, &status, 0);
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 130);
+    EXPECT_EQ(files(), 0u);
+}
+
+TEST_F(BakeCommand, help_has_examples)
+{
+    const auto o = run("bake --help");
+    EXPECT_EQ(o.code, 0);
+    EXPECT_TRUE(says(o.out, "examples:"));
+}

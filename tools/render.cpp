@@ -28,6 +28,7 @@
 #include <deque>
 #include <filesystem>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -131,6 +132,18 @@ void check_view(const Options& options, const shaders::ColorConfig& config)
                fmt::format("no such view of that display; there are {}", fmt::join(views, ", ")));
 }
 
+shaders::MetalColor metal_of(const std::string& name, const shaders::ColorConfig& config)
+{
+    try
+    {
+        return shaders::metal_color(name, config);
+    }
+    catch (const std::invalid_argument& e)
+    {
+        refuse("--metal", name, e.what());
+    }
+}
+
 Plan make_plan(const Options& options)
 {
     check_range("--spp", options.samples, 1, 65536);
@@ -142,14 +155,9 @@ Plan make_plan(const Options& options)
         if (!(alpha >= 0.0 && alpha <= 1.0))
             refuse("--alpha", fmt::format("{}", alpha), "takes numbers from 0 (mirror) to 1");
 
-    const auto metals = shaders::metal_names();
-    if (std::find(metals.begin(), metals.end(), options.metal) == metals.end())
-        refuse("--metal", options.metal,
-               fmt::format("no such metal; there are {}", fmt::join(metals, ", ")));
-
     auto config = shaders::ColorConfig::active();
     check_view(options, config);
-    auto metal = shaders::metal_color(options.metal, config);
+    auto metal = metal_of(options.metal, config);
 
     Plan plan{options.output,
               fs::path(options.output).replace_extension(".png"),

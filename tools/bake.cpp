@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright Contributors to the Regain project
 
+#include "bake_table.h"
+#include "bake_verify.h"
 #include "commands.h"
 #include "errors.h"
 #include "json_fields.h"
 #include "preview/interrupt.h"
-#include "preview/progress.h"
-#include "table_check.h"
 
 #include <regain/luts/bake.h>
-#include <regain/luts/builtin.h>
 #include <regain/luts/embed.h>
 #include <regain/luts/exr.h>
 #include <regain/luts/replace_file.h>
@@ -19,7 +18,6 @@
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -54,28 +52,6 @@ struct Arguments
     int spots = 0;
     bool verify = false, json = false;
 };
-
-luts::Table bake_showing(const std::string& name, const InterruptGuard& guard)
-{
-    constexpr std::uint64_t steps = 1000;
-    Progress progress("baking " + name, steps, Progress::style(false));
-    std::uint64_t shown = 0;
-    luts::Table table = luts::bake(name, [&](double done) {
-        const auto now = static_cast<std::uint64_t>(done * static_cast<double>(steps));
-        progress.advance(now - std::min(shown, now));
-        shown = now;
-        return !guard.flag();
-    });
-    // A table may be too small to ask often.
-    if (guard.flag()) throw luts::BakeStopped();
-    return table;
-}
-
-bool is_table(const std::string& name)
-{
-    const Names known = luts::bakeable_tables();
-    return std::find(known.begin(), known.end(), name) != known.end();
-}
 
 void make_folder(const std::string& folder)
 {
@@ -150,88 +126,11 @@ int run_bake(const Arguments& a, const InterruptGuard& guard)
     return kDone;
 }
 
-struct ShippedFile
-{
-    std::string file;
-    luts::Table table;
-};
-
-std::vector<TableCheck> check_table(const std::string& name, const std::vector<ShippedFile>& files,
-                                    int spots, const InterruptGuard& guard)
-{
-    std::vector<TableCheck> checks;
-    if (spots > 0)
-    {
-        checks.push_back(check_spots(name, luts::builtin_table(name), "compiled in", spots));
-        for (const ShippedFile& f : files)
-            if (f.table.name() == name)
-                checks.push_back(check_spots(name, f.table.view(), f.file, spots));
-        return checks;
-    }
-    const luts::Table baked = bake_showing(name, guard);
-    checks.push_back(check_builtin(baked));
-    for (const ShippedFile& f : files)
-        if (f.table.name() == name) checks.push_back(check_file(baked, f.table, f.file));
-    return checks;
-}
-
-Json as_json(const TableCheck& c)
-{
-    Json json{{"table", c.table},         {"against", c.against},
-              {"passed", c.passed()},     {"numbers", c.numbers},
-              {"differing", c.differing}, {"largest_difference", c.largest_difference}};
-    if (c.worst)
-        json["worst"] = {{"where", c.worst->where},
-                         {"shipped", c.worst->shipped},
-                         {"expected", c.worst->expected}};
-    return json;
-}
-
-void print(const TableCheck& c)
-{
-    fmt::print("{:<6} {:<18} {}: {} numbers, largest difference {:.1e}\n",
-               c.passed() ? "same" : "DIFFER", c.table, c.against, c.numbers, c.largest_difference);
-    if (c.worst)
-        fmt::print("       {} differ, most at {}: shipped {}, expected {}\n", c.differing,
-                   c.worst->where, c.worst->shipped, c.worst->expected);
-}
-
 int run_verify(const Arguments& a, const InterruptGuard& guard)
 {
     if (!a.output.empty() || !a.embed.empty())
         throw BadInput("--verify writes nothing: leave out -o and --embed");
-    Names names;
-    std::vector<ShippedFile> files;
-    for (const std::string& given : a.given)
-    {
-        std::string name = given;
-        if (!is_table(given))
-        {
-            files.push_back({given, luts::read_table(given)});
-            name = files.back().table.name();
-            if (!is_table(name))
-                throw BadInput(fmt::format("'{}' holds the table '{}'; known are {}", given, name,
-                                           fmt::join(luts::bakeable_tables(), ", ")));
-        }
-        if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-    }
-
-    Json report = Json::array();
-    int failed = 0;
-    for (const std::string& name : names.empty() ? luts::bakeable_tables() : names)
-        for (const TableCheck& check : check_table(name, files, a.spots, guard))
-        {
-            if (!a.json) print(check);
-            report.push_back(as_json(check));
-            failed += !check.passed();
-        }
-    if (a.json) fmt::print("{}\n", report.dump());
-    if (failed > 0)
-        throw CheckFailed(
-            fmt::format("{} of {} tables are not what their definition says: bake "
-                        "them again",
-                        failed, report.size()));
-    return kDone;
+    return verify_tables(a.given, a.spots, a.json, guard);
 }
 
 int run(const Arguments& a)

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+/// @file
+/// `regain bake --verify`: which of the shipped tables are no longer what baking gives.
+
+#pragma once
+
+#include "preview/interrupt.h"
+
+#include <string>
+#include <vector>
+
+namespace regain::tools {
+
+/// Checks the compiled-in tables and EXR files that are `given` by name (all compiled-in ones, if
+/// none is) and prints a report. spots > 0: at that many places only, without baking. Throws
+/// CheckFailed where a table differs.
+int verify_tables(const std::vector<std::string>& given, int spots, bool json,
+                  const InterruptGuard& guard);
+
+}  // namespace regain::tools

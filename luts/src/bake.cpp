@@ -136,7 +136,7 @@ public:
     Fit(const Definition& definition, const BakeProgress& progress)
         : _definition(definition), _width(table_nodes), _height(definition.height)
     {
-        const int last = 6;  // checks along the side of a cell
+        const int last = _height > 1 ? 6 : 32;  // checks along the side of a cell
         const int rows = std::max(_height - 1, 1);
         const double dx = 1.0 / (_width - 1), dy = _height > 1 ? 1.0 / (_height - 1) : 0;
         for (int j = 0; j < _height; ++j)
@@ -183,10 +183,16 @@ public:
         }
     }
 
-    double largest_error() const
+    // Of what look-ups find: with the nodes in their 16-bit form.
+    double largest_error()
     {
+        const TableInfo& info = _definition.info;
+        const std::vector<double> exact = _nodes;
+        for (double& n : _nodes)
+            n = info.offset + info.scale * std::round((n - info.offset) / info.scale);
         double largest = 0;
         for (const Check& c : _checks) largest = std::max(largest, std::abs(error(c)));
+        _nodes = exact;
         return largest;
     }
 

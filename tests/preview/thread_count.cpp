@@ -7,6 +7,11 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
 namespace regain::tools::preview { namespace {
 
 using namespace doubles;
@@ -28,6 +33,39 @@ TEST(ThreadCount, LeavesThePictureBitEqual)
                 for (int x = 0; x < kSize; ++x) ASSERT_EQ(one.mean(x, y), film.mean(x, y));
         }
     }
+}
+
+/// Its first tile waits for a second thread to come.
+class Rendezvous final : public Integrator
+{
+public:
+    void render(const Tile& tile, int, int, Film& film) const override
+    {
+        std::unique_lock<std::mutex> lock(_mutex);
+        ++_arrived;
+        _changed.notify_all();
+        if (_arrived == 1)
+            _met = _changed.wait_for(lock, std::chrono::seconds(10), [&] { return _arrived > 1; });
+        film.add(tile.x0, tile.y0, C3f(0.0f));
+    }
+    bool met() const { return _met; }
+
+private:
+    mutable std::mutex _mutex;
+    mutable std::condition_variable _changed;
+    mutable int _arrived = 0;
+    mutable bool _met = false;
+};
+
+// Also while a scene is there: its ray tracer shares the threads.
+TEST(ThreadCount, ThereAreAsManyThreadsAsAskedFor)
+{
+    if (std::thread::hardware_concurrency() < 2) GTEST_SKIP() << "one processor";
+    WidgetWorld w(make_studio(), 16, 16);
+    Rendezvous integrator;
+    Film film(64, 64);
+    ASSERT_TRUE(render({{{&integrator, &film}}, 1, 2}));
+    EXPECT_TRUE(integrator.met());
 }
 
 TEST(ThreadCount, SeedChangesThePicture)

@@ -4,6 +4,7 @@
 #include "scene.h"
 
 #include <embree3/rtcore.h>
+#include <tbb/global_control.h>
 
 #include <limits>
 #include <stdexcept>
@@ -47,6 +48,19 @@ Ray Hit::leave(const V3f& direction) const
     return {position + geometric_normal * side, direction};
 }
 
+namespace {
+
+/// The tree is then the same in every run, and with it which of two triangles a ray hits that goes
+/// through their common edge. Asking the device for one thread would hold all of oneTBB to one for
+/// as long as the device lives.
+void commit_by_one_thread(RTCScene scene)
+{
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    rtcCommitScene(scene);
+}
+
+}  // namespace
+
 struct Scene::Impl
 {
     struct Placement
@@ -79,7 +93,7 @@ struct Scene::Impl
 
 Scene::Scene() : _impl(std::make_unique<Impl>())
 {
-    _impl->device = rtcNewDevice("threads=1");
+    _impl->device = rtcNewDevice(nullptr);
     _impl->check("start");
     _impl->scene = rtcNewScene(_impl->device);
     rtcSetSceneFlags(_impl->scene, RTC_SCENE_FLAG_ROBUST);
@@ -111,7 +125,7 @@ int Scene::add_mesh(Mesh m)
     rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
     rtcAttachGeometry(scene, geometry);
     rtcReleaseGeometry(geometry);
-    rtcCommitScene(scene);
+    commit_by_one_thread(scene);
     _impl->mesh_scenes.push_back(scene);
     _impl->check("build a mesh");
     return static_cast<int>(_impl->meshes.size()) - 1;
@@ -132,7 +146,7 @@ void Scene::place(int mesh, const V3f& offset, int material)
 
 void Scene::commit()
 {
-    rtcCommitScene(_impl->scene);
+    commit_by_one_thread(_impl->scene);
     _impl->check("build the scene");
 }
 

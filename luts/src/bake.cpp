@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 REGAIN_NAMESPACE_BEGIN
 namespace luts {
@@ -29,15 +28,6 @@ struct Angle
         mu = r * alpha / (1 - r + r * alpha);
     }
     double mu, alpha;
-};
-
-struct Definition
-{
-    TableInfo info;
-    int height;
-    bool fitted;
-    double largest;  // of a node
-    double (*exact)(double x, double y, int nodes);
 };
 
 double E_ss(double x, double y, int nodes)
@@ -71,53 +61,50 @@ double dip(double x, double y, int nodes)
     return shift_of_mean([](double mu) { return FresnelMoments<double>::at(mu).dip; }, x, y, nodes);
 }
 
-std::vector<Definition> definitions()
+struct Definition
+{
+    const char* quantity;
+    int height;              // number of nodes along y; 1 for one axis
+    bool fitted;             // levelled for the relative error; otherwise exact at the nodes
+    double lowest, highest;  // that a node can be: the range of the 16-bit form
+    double (*exact)(double x, double y, int nodes);
+
+    std::string name() const { return std::string("ggx_") + quantity; }
+    TableInfo info() const;
+};
+
+// A levelled node of E_ss may lie a little above 1.
+const Definition definitions[] = {
+    {"E_ss", table_nodes, true, 0, 65535.0 / 65000, E_ss},
+    {"E_avg", 1, true, 0, 1, E_avg},
+    {"falloff", table_nodes, false, -1, 0.25, falloff},
+    {"dip", table_nodes, false, -0.06, 0.06, dip},
+};
+
+TableInfo Definition::info() const
 {
     const std::string x = "sqrt(mu / (mu + alpha (1 - mu)))", y = "sqrt(alpha)";
-    const std::string quadrature = "Gauss-Legendre over the disc of upward slopes";
-    const std::string fitted = quadrature + ", nodes levelled for the least largest error";
-
-    Definition ss, avg, edge, tint;
-    ss.info = {"E_ss",           "ggx", 0,          x, y, fitted, node_accuracy, 0, "relative",
-               table_definition, 0,     1.0 / 65000};
-    ss.height = table_nodes;
-    ss.fitted = true;
-    ss.largest = 1.008;
-    ss.exact = E_ss;
-
-    avg.info = {"E_avg",          "ggx", 0,          y, "", fitted, node_accuracy, 0, "relative",
-                table_definition, 0,     1.0 / 65535};
-    avg.height = 1;
-    avg.fitted = true;
-    avg.largest = 1;
-    avg.exact = E_avg;
-
-    edge.info = {"falloff",  "ggx",         0, x,          y,
-                 quadrature, node_accuracy, 0, "absolute", table_definition,
-                 -1,         1.25 / 65535};
-    edge.height = table_nodes;
-    edge.fitted = false;
-    edge.largest = 0.25;
-    edge.exact = falloff;
-
-    tint.info = {"dip",      "ggx",         0, x,          y,
-                 quadrature, node_accuracy, 0, "absolute", table_definition,
-                 -0.06,      0.12 / 65535};
-    tint.height = table_nodes;
-    tint.fitted = false;
-    tint.largest = 0.06;
-    tint.exact = dip;
-    return {ss, avg, edge, tint};
+    TableInfo i;
+    i.quantity = quantity;
+    i.distribution = "ggx";
+    i.axis_x = height > 1 ? x : y;
+    i.axis_y = height > 1 ? y : "";
+    i.method = "Gauss-Legendre over the disc of upward slopes";
+    if (fitted) i.method += ", nodes levelled for the least largest error";
+    i.nodes = node_accuracy;
+    i.error_kind = fitted ? "relative" : "absolute";
+    i.offset = lowest;
+    i.scale = (highest - lowest) / 65535;
+    return i;
 }
 
-Definition definition_of(const std::string& name)
+const Definition& definition_of(const std::string& name)
 {
     std::string known;
-    for (const Definition& d : definitions())
+    for (const Definition& d : definitions)
     {
-        const std::string its_name = d.info.distribution + "_" + d.info.quantity;
-        if (its_name == name) return d;
-        known += (known.empty() ? "" : ", ") + its_name;
+        if (d.name() == name) return d;
+        known += (known.empty() ? "" : ", ") + d.name();
     }
     throw std::invalid_argument("no table is called '" + name + "'; there are " + known);
 }
@@ -179,14 +166,14 @@ public:
             }
             for (std::size_t n = 0; n < _nodes.size(); ++n)
                 _nodes[n] =
-                    std::min(_definition.largest, _nodes[n] * (1 - 0.2 * (above[n] + below[n])));
+                    std::min(_definition.highest, _nodes[n] * (1 - 0.2 * (above[n] + below[n])));
         }
     }
 
     // Of what look-ups find: with the nodes in their 16-bit form.
     double largest_error()
     {
-        const TableInfo& info = _definition.info;
+        const TableInfo info = _definition.info();
         const std::vector<double> exact = _nodes;
         for (double& n : _nodes)
             n = info.offset + info.scale * std::round((n - info.offset) / info.scale);
@@ -212,7 +199,7 @@ private:
     {
         double value = 0;
         for (int k = 0; k < 4; ++k) value += weight(c, k) * _nodes[node(c, k)];
-        if (_definition.info.error_kind == "absolute") return value - c.exact;
+        if (!_definition.fitted) return value - c.exact;
         return std::min(value, 1.0) / c.exact - 1;
     }
 
@@ -227,24 +214,22 @@ private:
 std::vector<std::string> bakeable_tables()
 {
     std::vector<std::string> names;
-    for (const Definition& d : definitions())
-        names.push_back(d.info.distribution + "_" + d.info.quantity);
+    for (const Definition& d : definitions) names.push_back(d.name());
     return names;
 }
 
 double exact_value(const std::string& name, double x, double y, int nodes)
 {
-    const Definition d = definition_of(name);
-    return d.height > 1 ? d.exact(x, y, nodes) : d.exact(x, 0, nodes);
+    return definition_of(name).exact(x, y, nodes);
 }
 
 Table bake(const std::string& name, const BakeProgress& progress)
 {
-    const Definition d = definition_of(name);
+    const Definition& d = definition_of(name);
     Fit fit(d, progress);
     if (d.fitted) fit.level();
 
-    TableInfo info = d.info;
+    TableInfo info = d.info();
     info.error = fit.largest_error();
     return Table(info, table_nodes, d.height,
                  std::vector<float>(fit.nodes().begin(), fit.nodes().end()));

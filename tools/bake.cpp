@@ -16,8 +16,6 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include <unistd.h>
-
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -60,8 +58,7 @@ void make_folder(const std::string& folder)
     if (!fs::is_directory(folder))
         throw BadInput(fmt::format("cannot write to the folder '{}': {}", folder,
                                    ec ? ec.message() : "it is none"));
-    if (::access(folder.c_str(), W_OK) != 0)
-        throw BadInput(fmt::format("cannot write to the folder '{}': not permitted", folder));
+    luts::require_replaceable(fs::path(folder) / "table.exr");
 }
 
 void write_embedded(const fs::path& file, const luts::Table& table)

@@ -13,12 +13,12 @@
 #include "preview/row.h"
 
 #include <regain/closures/version.h>
+#include <regain/luts/replace_file.h>
 #include <regain/shaders/color_config.h>
 #include <regain/shaders/metals.h>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
@@ -106,16 +106,9 @@ void parse_size(const std::string& text, int* width, int* height)
 
 void check_outputs(const Plan& plan)
 {
-    const fs::path folder = plan.exr.has_parent_path() ? plan.exr.parent_path() : fs::path(".");
     if (plan.exr.extension() != ".exr")
         refuse("-o", plan.exr.string(), "the name must end in .exr (the PNG is written beside it)");
-    if (!fs::is_directory(folder))
-        refuse("-o", plan.exr.string(), fmt::format("there is no folder {}", folder.string()));
-    if (::access(folder.c_str(), W_OK | X_OK) != 0)
-        refuse("-o", plan.exr.string(),
-               fmt::format("the folder {} cannot be written to", folder.string()));
-    for (const fs::path& file : {plan.exr, plan.png})
-        if (fs::is_directory(file)) refuse("-o", file.string(), "is a folder");
+    for (const fs::path& file : {plan.exr, plan.png}) luts::require_replaceable(file);
 }
 
 void check_view(const Options& options, const shaders::ColorConfig& config)

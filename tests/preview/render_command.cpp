@@ -141,6 +141,8 @@ TEST_F(RenderCommand, RefusesBadInputBeforeItStarts)
         {{"--environment", "nowhere.exr"}, "nowhere.exr: no such file"},
         {{"-o", file("a.png")}, "must end in .exr"},
         {{"-o", file("none/a.exr")}, "there is no folder"},
+        // Where a superuser is let in, too, and yet no file can be made.
+        {{"-o", "/proc/a.exr"}, "takes no file"},
         {{"-o", file("folder.exr")}, "is a folder"},
     };
     for (const auto& c : cases)

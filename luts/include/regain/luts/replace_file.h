@@ -16,6 +16,11 @@
 REGAIN_NAMESPACE_BEGIN
 namespace luts {
 
+/// Throws std::runtime_error that names the target and says why, if replace_file could not write it
+/// now. It creates and removes an empty file beside the target: permissions alone do not tell, since a
+/// superuser has them all and some folders take no files from anybody.
+REGAIN_LUTS_API void require_replaceable(const std::filesystem::path& target);
+
 /// Calls `write` with a temporary path in the target's folder (same extension, so writers that go
 /// by it work), then renames that file to `target`. If `write` throws or leaves no file, the
 /// temporary is removed, an existing target stays as it was, and the exception goes on. Throws

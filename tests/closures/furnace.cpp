@@ -37,6 +37,24 @@ TEST(Furnace, turquin_returns_all_energy)
         }
 }
 
+// Directions are rounded to float on their way into eval, as a renderer's are.
+TEST(Furnace, float_is_as_good_as_double_at_grazing_angles)
+{
+    for (double alpha : {1e-3, 0.01, 0.2})
+        for (double mu : {1e-5, 1e-4, 1e-3, 0.01, 0.3})
+            for (double azimuth : {0.0, 0.7, 1.3})
+            {
+                const auto wo = direction<double>(mu, azimuth);
+                const auto prepared =
+                    compensated(white<float>(alpha, alpha), Method::turquin, luts::ggx_tables())
+                        .prepare(Vec3<float>(wo));
+                const double E = integrate_reflections(wo, alpha, alpha, 48, [&](const auto& wi) {
+                    return double(prepared.eval(Vec3<float>(wi)).x);
+                });
+                EXPECT_NEAR(E, 1, 2e-3) << "alpha " << alpha << ", mu " << mu << ", " << azimuth;
+            }
+}
+
 // With F = 1 every method that compensates at all is the same gain.
 TEST(Furnace, every_method_returns_all_energy)
 {

@@ -17,8 +17,8 @@ REGAIN_NAMESPACE_BEGIN
 namespace luts {
 
 /// Throws std::runtime_error that names the target and says why, if replace_file could not write it
-/// now. It creates and removes an empty file beside the target: permissions alone do not tell, since a
-/// superuser has them all and some folders take no files from anybody.
+/// now. It creates and removes an empty file beside the target: permissions alone do not tell,
+/// since a superuser has them all and some folders take no files from anybody.
 REGAIN_LUTS_API void require_replaceable(const std::filesystem::path& target);
 
 /// Calls `write` with a temporary path in the target's folder (same extension, so writers that go

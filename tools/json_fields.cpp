@@ -69,8 +69,8 @@ std::string Range::text() const
 
 std::string excerpt(std::string_view text)
 {
-    if (text.size() <= longest_shown) return "'" + std::string(text) + "'";
-    return "'" + std::string(text.substr(0, longest_shown)) + "...'";
+    if (text.size() <= longest_shown) return fmt::format("'{}'", text);
+    return fmt::format("'{}...'", text.substr(0, longest_shown));
 }
 
 std::string shown(const Json& value)

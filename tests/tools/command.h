@@ -6,6 +6,7 @@
 
 #pragma once
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <stdlib.h>
 #include <sys/wait.h>
@@ -60,9 +61,8 @@ protected:
         for (std::size_t at; (at = arguments.find("FOLDER")) != std::string::npos;)
             arguments.replace(at, 6, folder.string());
         write("stdin", input);
-        const auto quoted = [&](const char* file) { return "'" + (folder / file).string() + "'"; };
-        const std::string line = "'" REGAIN_BINARY "' " + arguments + " <" + quoted("stdin") +
-                                 " >" + quoted("stdout") + " 2>" + quoted("stderr");
+        const std::string line = fmt::format("'{0}' {1} <'{2}/stdin' >'{2}/stdout' 2>'{2}/stderr'",
+                                             REGAIN_BINARY, arguments, folder.string());
         const int status = std::system(line.c_str());
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read("stdout"), read("stderr")};
     }

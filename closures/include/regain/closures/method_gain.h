@@ -79,12 +79,15 @@ public:
         _bound = method != Method::none && tables.E_ss && (tables.E_avg || !needs_average);
         if (!_bound) return;
 
-        // A mirror loses nothing to later bounces.
-        const Real s =
-            detail::select(lobe.distribution().is_delta(), Real(0), detail::saturate(strength));
+        const auto& distribution = lobe.distribution();
+        const Real s = detail::saturate(strength);
         const Real E_avg = needs_average ? tables.E_avg.at(_sqrt_alpha) : Real(1);
-        _F_ms = F_ms(method, lobe.fresnel(), E_avg) * s;
-        _full = method != Method::none && detail::all<Real>(s == Real(1));
+        // A mirror loses nothing to later bounces.
+        _F_ms = F_ms(method, lobe.fresnel(), E_avg) *
+                detail::select(distribution.is_delta(), Real(0), s);
+        // The tables know one alpha; what they say of two is an estimate.
+        _preserves = detail::all<Real>(s == Real(1)) &&
+                     detail::all<Real>(distribution.alpha_x() == distribution.alpha_y());
     }
 
     Color at(const Vec3<Real>& wo) const
@@ -95,8 +98,9 @@ public:
         return Color(Real(1)) + _F_ms * ((Real(1) - E) / E);
     }
 
-    /// Every method has F_ms = 1 where F = 1.
-    bool energy_preserving() const { return _bound && _full; }
+    /// Every method has F_ms = 1 where F = 1, so at full strength the albedo is 1 there; of an
+    /// anisotropic lobe it is not promised.
+    bool energy_preserving() const { return _bound && _preserves; }
 
 private:
     template <class Fresnel>
@@ -130,7 +134,7 @@ private:
     TableView _E_ss;
     Color _F_ms = Color(Real(0));
     Real _alpha, _sqrt_alpha;
-    bool _bound = false, _full = false;
+    bool _bound = false, _preserves = false;
 };
 
 REGAIN_NAMESPACE_END

@@ -151,6 +151,11 @@ Plan make_plan(const Options& options)
     auto config = shaders::ColorConfig::active();
     check_view(options, config);
     auto metal = metal_of(options.metal, config);
+    if (metal.out_of_gamut)
+        fmt::print(stderr,
+                   "regain: {} reflects a colour outside the working space {}; it was limited to "
+                   "[0, 1]\n",
+                   options.metal, config.scene_linear());
 
     Plan plan{options.output,
               fs::path(options.output).replace_extension(".png"),

@@ -7,6 +7,8 @@
 #include "commands.h"
 #include "errors.h"
 
+#include <regain/shaders/color_config.h>
+
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -153,6 +155,26 @@ TEST_F(RenderCommand, RefusesBadInputBeforeItStarts)
         EXPECT_NE(err.find(c.says), std::string::npos) << c.says << "\nbut: " << err;
         EXPECT_FALSE(fs::exists(file("bad.exr")));
     }
+}
+
+// Gold is redder than Rec. 709 can say: 1.04 in the red channel.
+TEST_F(RenderCommand, SaysWhenAMetalDoesNotFitTheWorkingSpace)
+{
+    const auto with_working_space = [&](const std::string& space) {
+        std::string text = shaders::ColorConfig::builtin().text();
+        const std::string role = "scene_linear: ACEScg";
+        text.replace(text.find(role), role.size(), "scene_linear: " + space);
+        std::ofstream(file("config.ocio")) << text;
+        ::setenv("OCIO", file("config.ocio").c_str(), 1);
+        EXPECT_EQ(run({"--size", "16x16", "--alpha", "0.5", "--method", "none", "--spp", "1",
+                       "--quiet", "-o", file("a.exr")}),
+                  kDone);
+        ::unsetenv("OCIO");
+        return err;
+    };
+    EXPECT_NE(with_working_space("lin_rec709").find("outside the working space"),
+              std::string::npos);
+    EXPECT_EQ(with_working_space("ACEScg"), "");
 }
 
 TEST_F(RenderCommand, InterruptLeavesAMarkedPicture)

@@ -57,4 +57,28 @@ struct Traits
     int random_numbers = 0;    ///< that sample takes
 };
 
+namespace detail {
+
+/// The albedo of a prepared closure by its own samples: their mean weight over a grid of random
+/// numbers. Right within 2e-3, and a thousand times slower than a look-up.
+template <class Real, class Prepared>
+Albedo<Real> mean_weight(const Prepared& prepared)
+{
+    constexpr int n = 32;
+    const Color3<Real> none(Real(0));
+    Albedo<Real> sum{none, none};
+    for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i)
+        {
+            const Sample<Real> s =
+                prepared.sample({constant<Real>((i + 0.5) / n), constant<Real>((j + 0.5) / n)});
+            const Color3<Real> w = s.weight * constant<Real>(1.0 / (n * n));
+            sum.reflect += select(s.transmitted, none, w);
+            sum.transmit += select(s.transmitted, w, none);
+        }
+    return sum;
+}
+
+}  // namespace detail
+
 REGAIN_NAMESPACE_END

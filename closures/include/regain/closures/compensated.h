@@ -70,22 +70,8 @@ public:
         {
             if constexpr (!depends_on_wi)
                 return _lobe.albedo();
-            else
-            {
-                // No table knows a gain that depends on wi.
-                constexpr int n = 32;
-                Albedo<Real> sum{Color(Real(0)), Color(Real(0))};
-                for (int j = 0; j < n; ++j)
-                    for (int i = 0; i < n; ++i)
-                    {
-                        const Sample<Real> s = sample({detail::constant<Real>((i + 0.5) / n),
-                                                       detail::constant<Real>((j + 0.5) / n)});
-                        const Color w = s.weight * detail::constant<Real>(1.0 / (n * n));
-                        sum.reflect += detail::select(s.transmitted, Color(Real(0)), w);
-                        sum.transmit += detail::select(s.transmitted, w, Color(Real(0)));
-                    }
-                return sum;
-            }
+            else  // no table knows a gain that depends on wi
+                return detail::mean_weight<Real>(*this);
         }
 
     private:
@@ -139,12 +125,12 @@ public:
     explicit ReversedGain(const Gain& gain) : _gain(gain) {}
 
     Color3<Real> at(const Vec3<Real>&) const { return Color3<Real>(Real(1)); }
-    Color3<Real> pair(const Vec3<Real>& wo, const Vec3<Real>& wi) const
+    Color3<Real> pair([[maybe_unused]] const Vec3<Real>& wo, const Vec3<Real>& wi) const
     {
         if constexpr (detail::GainDependsOnWi<Gain>::value)
             return _gain.at(wi) * _gain.pair(wi, wo);
         else
-            return (void)wo, _gain.at(wi);
+            return _gain.at(wi);
     }
 
 private:

@@ -111,7 +111,7 @@ public:
         {
             const MicrofacetTables& t = _lobe._tables;
             if (t.E_ss && t.falloff && t.dip) return {tabulated_albedo(), Color(Real(0))};
-            return {integrated_albedo(), Color(Real(0))};
+            return detail::mean_weight<Real>(*this);
         }
 
     private:
@@ -175,19 +175,6 @@ public:
             const Color F =
                 detail::select(_delta, _lobe._fresnel.at(mu), _lobe._fresnel.mean(moments));
             return F * _weight * E;
-        }
-
-        // The mean weight over a grid of random numbers.
-        Color integrated_albedo() const
-        {
-            constexpr int n = 32;
-            Color sum(Real(0));
-            for (int j = 0; j < n; ++j)
-                for (int i = 0; i < n; ++i)
-                    sum += sample({detail::constant<Real>((i + 0.5) / n),
-                                   detail::constant<Real>((j + 0.5) / n)})
-                               .weight;
-            return sum * detail::constant<Real>(1.0 / (n * n));
         }
 
         MicrofacetReflection _lobe;

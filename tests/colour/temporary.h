@@ -3,52 +3,21 @@
 
 /// @file
 /// What colour tests leave no trace of: a folder, the environment variable OCIO. And what they ask
-/// of errors.
+/// of errors and colours.
 
 #pragma once
+
+#include "../support/temporary_folder.h"
 
 #include <Imath/ImathColor.h>
 #include <gtest/gtest.h>
 #include <stdlib.h>
-#include <unistd.h>
 
 #include <exception>
-#include <filesystem>
-#include <fstream>
 #include <optional>
 #include <string>
 
 namespace test {
-
-class TemporaryFolder
-{
-public:
-    TemporaryFolder()
-    {
-        std::string name = (std::filesystem::temp_directory_path() / "regain-XXXXXX").string();
-        if (!::mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
-        _path = name;
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    ~TemporaryFolder()
-    {
-        std::error_code ignored;
-        std::filesystem::remove_all(_path, ignored);
-    }
-
-    std::filesystem::path operator/(const std::string& name) const { return _path / name; }
-    const std::filesystem::path& path() const { return _path; }
-
-    std::filesystem::path write(const std::string& name, const std::string& text) const
-    {
-        std::ofstream(_path / name) << text;
-        return _path / name;
-    }
-
-private:
-    std::filesystem::path _path;
-};
 
 /// Sets OCIO, or unsets it; puts it back.
 class OcioVariable

@@ -4,6 +4,7 @@
 // The tables against quadrature, against themselves re-baked, and against their files.
 
 #include "../support/closures.h"
+#include "../support/temporary_folder.h"
 
 #include <regain/luts/albedo_integral.h>
 #include <regain/luts/bake.h>
@@ -27,15 +28,6 @@ fs::path shipped(const std::string& name) { return fs::path(REGAIN_TABLES) / (na
 class Files : public testing::Test
 {
 protected:
-    void SetUp() override
-    {
-        _folder =
-            fs::temp_directory_path() /
-            ("regain-tables-" + std::to_string(::testing::UnitTest::GetInstance()->random_seed()) +
-             std::to_string(reinterpret_cast<std::uintptr_t>(this)));
-        fs::create_directories(_folder);
-    }
-    void TearDown() override { fs::remove_all(_folder); }
     fs::path file(const std::string& name) const { return _folder / name; }
 
     std::string error_of(const fs::path& path)
@@ -52,7 +44,7 @@ protected:
     }
 
 private:
-    fs::path _folder;
+    const test::TemporaryFolder _folder;
 };
 
 // Known values: E_ss(alpha 1, mu 1) = 1 - ln 2 in closed form; E_avg of GGX at alpha 1 is 0.409

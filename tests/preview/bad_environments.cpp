@@ -4,12 +4,12 @@
 // Environments that cannot be used are refused with a message that names the file and what is
 // wrong.
 
+#include "../support/temporary_folder.h"
 #include "errors.h"
 #include "preview/environment.h"
 
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <fstream>
 #include <limits>
@@ -21,15 +21,6 @@ namespace fs = std::filesystem;
 class BadEnvironments : public testing::Test
 {
 protected:
-    void SetUp() override
-    {
-        const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-        folder = fs::temp_directory_path() /
-                 ("regain_environments_" + std::to_string(::getpid()) + "_" + info->name());
-        fs::create_directories(folder);
-    }
-    void TearDown() override { fs::remove_all(folder); }
-
     fs::path write(const char* name, int width, int height, int channels,
                    OIIO::TypeDesc type = OIIO::TypeDesc::FLOAT,
                    const std::vector<std::pair<std::size_t, float>>& odd = {})
@@ -59,7 +50,8 @@ protected:
         }
     }
 
-    fs::path folder;
+    const test::TemporaryFolder temporary;
+    const fs::path folder = temporary.path();
 };
 
 TEST_F(BadEnvironments, GoodOnesAreRead)

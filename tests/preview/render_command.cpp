@@ -4,6 +4,7 @@
 // The command as a user meets it: what it writes, what it refuses and how, and what an interrupt
 // leaves.
 
+#include "../support/temporary_folder.h"
 #include "commands.h"
 #include "errors.h"
 
@@ -31,13 +32,6 @@ namespace fs = std::filesystem;
 class RenderCommand : public testing::Test
 {
 protected:
-    void SetUp() override
-    {
-        folder = fs::temp_directory_path() / ("regain_render_" + std::to_string(::getpid()));
-        fs::create_directories(folder);
-    }
-    void TearDown() override { fs::remove_all(folder); }
-
     /// Exit code of `regain render` with these arguments; out and err hold what it said.
     int run(std::vector<std::string> arguments)
     {
@@ -73,7 +67,8 @@ protected:
         return {std::istreambuf_iterator<char>(in), {}};
     }
 
-    fs::path folder;
+    const test::TemporaryFolder temporary;
+    const fs::path folder = temporary.path();
     std::string out, err;
 };
 

@@ -6,9 +6,10 @@
 
 #pragma once
 
+#include "../support/temporary_folder.h"
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <stdlib.h>
 #include <sys/wait.h>
 #include <nlohmann/json.hpp>
 
@@ -43,18 +44,6 @@ inline bool says(const std::string& text, const std::string& part)
 class Command : public testing::Test
 {
 protected:
-    Command()
-    {
-        std::string name = (std::filesystem::temp_directory_path() / "regain-XXXXXX").string();
-        if (!::mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
-        folder = name;
-    }
-    ~Command() override
-    {
-        std::error_code ignored;
-        std::filesystem::remove_all(folder, ignored);
-    }
-
     /// Arguments are shell text; `FOLDER` in them stands for the temporary one.
     Outcome run(std::string arguments, const std::string& input = "") const
     {
@@ -78,7 +67,8 @@ protected:
         return text.str();
     }
 
-    std::filesystem::path folder;
+    const TemporaryFolder temporary;
+    const std::filesystem::path folder = temporary.path();
 };
 
 }  // namespace test

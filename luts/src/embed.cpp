@@ -20,7 +20,7 @@ std::string embedded(const Table& table)
     out << "};\n";
     out.precision(9);
     out << "constexpr TableView " << table.name() << " = {" << table.name() << "_data, "
-        << table.width() << ", " << table.height() << ", static_cast<float>(" << table.info().offset
+        << table.width() << ", " << table.height() << ", 1, static_cast<float>(" << table.info().offset
         << "), static_cast<float>(" << table.info().scale << ")};\n";
     return out.str();
 }

@@ -64,6 +64,19 @@ TEST(Ggx, visible_area_is_the_cosine)
             }
 }
 
+// sigma(-w) = sigma(w) - w.z, to the last digits of what is small.
+TEST(Ggx, visible_area_from_below_keeps_its_digits)
+{
+    for (double alpha : {1e-3, 0.3, 1.0})
+        for (double mu : {1e-4, 0.3, 0.9999})
+        {
+            const auto w = direction<double>(mu, 0.7);
+            const double exact = mu * GGX<double>(alpha).lambda(w);
+            EXPECT_NEAR(GGX<float>(float(alpha)).projected_area(Vec3<float>(-w)) / exact, 1, 2e-3);
+            EXPECT_NEAR(GGX<double>(alpha).projected_area(-w) / exact, 1, 1e-9);
+        }
+}
+
 TEST(Ggx, shadowing_is_correlated_and_bounded)
 {
     const GGX<double> d(0.6, 0.3);
@@ -90,7 +103,7 @@ TEST(Ggx, sampled_normals_are_visible)
                 GGX<float>(float(alpha), float(0.5 * alpha), NormalSampling::full).visible(wo);
             for (int i = 0; i < 3000; ++i)
             {
-                const auto m = visible.sample(random.square<float>());
+                const auto m = visible.sample({random.unit<float>(), random.unit<float>(), 0});
                 EXPECT_NEAR(m.length(), 1, 1e-6);
                 EXPECT_GE(m.z, 0);
                 EXPECT_GE(m.dot(wo), -1e-6);

@@ -6,12 +6,17 @@
 ///
 ///     prepare(wo)          what depends on wo alone; once per shading point
 ///       .eval(wi)          f(wo, wi) |cos theta_i| per channel; 0 where the pair is impossible
-///       .sample(u)         a Sample
+///       .sample(u)         a Sample; u in [0, 1)^3, of which the first `random_numbers` are read,
+///                          or in [0, 1)^2 where two are enough
 ///       .pdf(wi)           per steradian, over all that sample can return; integrates to
 ///                          1 - P(nothing)
 ///       .albedo()          an Albedo, for wo
 ///     eval(wo, wi) ...     shorthands for prepare(wo).eval(wi) ...
 ///     traits()             a Traits
+///     random_numbers       static: how many numbers sample reads, 2 or 3
+///
+/// A closure whose eval is an estimate takes random numbers there, too, .eval(wi, u), and says so:
+/// `stochastic_eval` is then a static constant, true. evaluate() below asks either kind.
 ///
 /// wo and wi are unit vectors in the local shading frame and point away from the surface. A wo that
 /// is no unit vector, or lies below the horizon of a closure that only reflects, gets black, a pdf
@@ -20,6 +25,8 @@
 #pragma once
 
 #include <regain/closures/vector.h>
+
+#include <utility>
 
 REGAIN_NAMESPACE_BEGIN
 
@@ -59,6 +66,40 @@ struct Traits
 
 namespace detail {
 
+template <class Prepared, class Real, class = void>
+struct TakesNumbersInEval : std::false_type
+{};
+template <class Prepared, class Real>
+struct TakesNumbersInEval<Prepared, Real,
+                          std::void_t<decltype(std::declval<const Prepared&>().eval(
+                              std::declval<Vec3<Real>>(), std::declval<Vec3<Real>>()))>>
+    : std::true_type
+{};
+
+}  // namespace detail
+
+/// f(wo, wi) |cos theta_i| of any prepared closure; u in [0, 1)^3 is read where eval is an
+/// estimate.
+template <class Prepared, class Real>
+Color3<Real> evaluate(const Prepared& prepared, const Vec3<Real>& wi,
+                      [[maybe_unused]] const Vec3<Real>& u)
+{
+    if constexpr (detail::TakesNumbersInEval<Prepared, Real>::value)
+        return prepared.eval(wi, u);
+    else
+        return prepared.eval(wi);
+}
+
+namespace detail {
+
+/// Two random numbers as three, for a closure that reads no more.
+template <class Closure, class Real>
+Vec3<Real> two_numbers(const Vec2<Real>& u)
+{
+    static_assert(Closure::random_numbers <= 2, "this closure reads three random numbers");
+    return {u.x, u.y, Real(0)};
+}
+
 /// The albedo of a prepared closure by its own samples: their mean weight over a grid of random
 /// numbers. Right within 2e-3, and a thousand times slower than a look-up.
 template <class Real, class Prepared>
@@ -70,8 +111,11 @@ Albedo<Real> mean_weight(const Prepared& prepared)
     for (int j = 0; j < n; ++j)
         for (int i = 0; i < n; ++i)
         {
-            const Sample<Real> s =
-                prepared.sample({constant<Real>((i + 0.5) / n), constant<Real>((j + 0.5) / n)});
+            // Where a third number is read, any sequence that fills the unit interval evenly.
+            const double third = (i * n + j + 0.5) * 0.61803398874989484820;
+            const Sample<Real> s = prepared.sample(
+                Vec3<Real>(constant<Real>((i + 0.5) / n), constant<Real>((j + 0.5) / n),
+                           constant<Real>(third - std::floor(third))));
             const Color3<Real> w = s.weight * constant<Real>(1.0 / (n * n));
             sum.reflect += select(s.transmitted, none, w);
             sum.transmit += select(s.transmitted, w, none);

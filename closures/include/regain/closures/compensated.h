@@ -20,6 +20,7 @@ public:
     using Real = typename Lobe::Real;
     using Color = Color3<Real>;
     static constexpr bool depends_on_wi = detail::GainDependsOnWi<Gain>::value;
+    static constexpr int random_numbers = Lobe::random_numbers;
 
     Compensated(const Lobe& lobe, const Gain& gain) : _lobe(lobe), _gain(gain) {}
 
@@ -59,6 +60,10 @@ public:
 
         Sample<Real> sample(const Vec2<Real>& u) const
         {
+            return sample(detail::two_numbers<Compensated>(u));
+        }
+        Sample<Real> sample(const Vec3<Real>& u) const
+        {
             Sample<Real> s = _lobe.sample(u);
             if constexpr (depends_on_wi) s.weight *= _gain.pair(wo(), s.wi);
             return s;
@@ -83,6 +88,10 @@ public:
 
     Color eval(const Vec3<Real>& wo, const Vec3<Real>& wi) const { return prepare(wo).eval(wi); }
     Sample<Real> sample(const Vec3<Real>& wo, const Vec2<Real>& u) const
+    {
+        return prepare(wo).sample(u);
+    }
+    Sample<Real> sample(const Vec3<Real>& wo, const Vec3<Real>& u) const
     {
         return prepare(wo).sample(u);
     }

@@ -14,12 +14,13 @@
 ///
 /// Visible normals are sampled by spherical caps (Dupuy and Benyoub 2023), for reflection lobes
 /// with the cap bounded to what can leave upwards (Eto and Tokuyoshi 2023; Tokuyoshi and Eto 2024).
+/// The interface is that of every distribution: see distribution.h.
 ///
 /// Directions: local frame, z = shading normal, unit.
 
 #pragma once
 
-#include <regain/closures/vector.h>
+#include <regain/closures/distribution.h>
 
 REGAIN_NAMESPACE_BEGIN
 
@@ -36,6 +37,9 @@ class GGX
 public:
     using Real = RealType;
     using Mask = MaskOf<Real>;
+
+    static constexpr int random_numbers = 2;
+    static constexpr bool has_tail = false;
 
     /// At or below this alpha on both axes the lobe is a mirror. It is where D stops being
     /// meaningful in the number type: half-vectors are known to a few ulps, D varies over alpha.
@@ -84,7 +88,7 @@ public:
     /// Projected area of the visible microsurface, sigma(w) above; w.z may have either sign.
     Real projected_area(const Vec3<Real>& w) const
     {
-        return Real(0.5f) * (w.z + stretched_length(w));
+        return projected_area(w, stretched_length(w));
     }
 
     /// Lambda(w) for w.z > 0.
@@ -101,11 +105,11 @@ public:
         return Real(1) / (Real(1) + lambda(wo) + lambda(wi));
     }
 
-    /// The visible normals of one wo, wo.z > 0.
+    /// The visible normals of one wo, or those of them that matter to a reflection lobe.
     class Visible
     {
     public:
-        Visible(const GGX& ggx, const Vec3<Real>& wo)
+        Visible(const GGX& ggx, const Vec3<Real>& wo, NormalSampling sampling)
             : _alpha_x(ggx._alpha_x), _alpha_y(ggx._alpha_y)
         {
             const Vec3<Real> v(_alpha_x * wo.x, _alpha_y * wo.y, wo.z);
@@ -113,15 +117,17 @@ public:
             _v = v * (Real(1) / t);
 
             Real k(1);
-            if (ggx._sampling == NormalSampling::bounded)
+            if (sampling == NormalSampling::bounded)
             {
                 const Real a = detail::min(_alpha_x, _alpha_y), a2 = a * a;
                 const Real s = Real(1) + detail::sqrt(wo.x * wo.x + wo.y * wo.y), s2 = s * s;
                 k = (Real(1) - a2) * s2 / (s2 + a2 * wo.z * wo.z);
             }
             _cap = k * _v.z;
-            _projected_area = Real(0.5f) * (wo.z + t);
-            _reflected_density = Real(0.5f) / (k * wo.z + t);
+            _projected_area = ggx.projected_area(wo, t);
+            _reflected_density = sampling == NormalSampling::bounded
+                                     ? Real(0.5f) / (k * wo.z + t)
+                                     : Real(0.25f) / _projected_area;
         }
 
         /// sigma(wo).
@@ -130,8 +136,8 @@ public:
         /// Factor that turns D(m) into the density of the reflected direction, per steradian.
         Real reflected_density() const { return _reflected_density; }
 
-        /// A visible normal for u in [0, 1)^2; unit, z >= 0.
-        Vec3<Real> sample(const Vec2<Real>& u) const
+        /// A visible normal for u in [0, 1)^3, of which x and y are read; unit, z >= 0.
+        Vec3<Real> sample(const Vec3<Real>& u) const
         {
             const Real phi = detail::constant<Real>(6.28318530717958647692) * detail::saturate(u.x);
             const Real z = (Real(1) - detail::saturate(u.y)) * (Real(1) + _cap) - _cap;
@@ -151,9 +157,20 @@ public:
         Real _projected_area, _reflected_density;
     };
 
-    Visible visible(const Vec3<Real>& wo) const { return Visible(*this, wo); }
+    /// All visible normals; wo.z may have either sign.
+    Visible visible(const Vec3<Real>& wo) const { return Visible(*this, wo, NormalSampling::full); }
+    /// Those a reflection lobe samples, wo.z > 0.
+    Visible reflecting(const Vec3<Real>& wo) const { return Visible(*this, wo, _sampling); }
 
 private:
+    // t is the stretched length of w. Below the horizon the sum cancels; its conjugate does not.
+    Real projected_area(const Vec3<Real>& w, Real t) const
+    {
+        const Real x = _alpha_x * w.x, y = _alpha_y * w.y;
+        const MaskOf<Real> below = w.z < Real(0);
+        const Real tangential2 = detail::select(below, x * x + y * y, Real(0));
+        return Real(0.5f) * detail::select(below, tangential2 / (t + detail::abs(w.z)), w.z + t);
+    }
     Real stretched_length(const Vec3<Real>& w) const
     {
         const Real x = _alpha_x * w.x, y = _alpha_y * w.y;

@@ -71,17 +71,15 @@ public:
     /// `lobe` is a MicrofacetReflection; strength is clamped to [0, 1], NaN becomes 0.
     template <class Lobe>
     MethodGain(const Lobe& lobe, Method method, const MicrofacetTables& tables, Real strength)
-        : _E_ss(tables.E_ss)
+        : _tables(tables), _axes(lobe.distribution())
     {
-        _alpha = lobe.distribution().effective_alpha();
-        _sqrt_alpha = detail::sqrt(_alpha);
         const bool needs_average = method == Method::turquin_eq12 || method == Method::series;
         _bound = method != Method::none && tables.E_ss && (tables.E_avg || !needs_average);
         if (!_bound) return;
 
         const auto& distribution = lobe.distribution();
         const Real s = detail::saturate(strength);
-        const Real E_avg = needs_average ? tables.E_avg.at(_sqrt_alpha) : Real(1);
+        const Real E_avg = needs_average ? tables.average_albedo(_axes) : Real(1);
         // A mirror loses nothing to later bounces.
         _F_ms = F_ms(method, lobe.fresnel(), E_avg) *
                 detail::select(distribution.is_delta(), Real(0), s);
@@ -93,8 +91,7 @@ public:
     Color at(const Vec3<Real>& wo) const
     {
         if (!_bound) return Color(Real(1));
-        const Real E = detail::min(
-            _E_ss.at(stretched_cosine(detail::saturate(wo.z), _alpha), _sqrt_alpha), Real(1));
+        const Real E = _tables.albedo(_axes, detail::saturate(wo.z));
         return Color(Real(1)) + _F_ms * ((Real(1) - E) / E);
     }
 
@@ -118,8 +115,9 @@ private:
             case Method::turquin_eq13:
                 return detail::per_channel(fresnel.average(), [&](Real F_ss) {
                     // pow of 0 in a vector goes through log.
+                    const Real alpha = _axes.alpha();
                     return detail::pow(detail::max(F_ss, detail::constant<Real>(1e-20)),
-                                       _alpha * _sqrt_alpha);
+                                       alpha * detail::sqrt(alpha));
                 });
             case Method::turquin_eq14: return fresnel.average();
             case Method::series:
@@ -131,9 +129,9 @@ private:
         return Color(Real(0));
     }
 
-    TableView _E_ss;
+    MicrofacetTables _tables;
+    TableAxes<Real> _axes;
     Color _F_ms = Color(Real(0));
-    Real _alpha, _sqrt_alpha;
     bool _bound = false, _preserves = false;
 };
 

@@ -20,6 +20,8 @@
 #include <regain/closures/fresnel_moments.h>
 #include <regain/closures/table.h>
 
+#include <utility>
+
 REGAIN_NAMESPACE_BEGIN
 
 template <class DistributionType, class FresnelType>
@@ -31,6 +33,7 @@ public:
     using Real = typename Distribution::Real;
     using Mask = MaskOf<Real>;
     using Color = Color3<Real>;
+    static constexpr int random_numbers = Distribution::random_numbers;
 
     /// `tables` make albedo() a look-up; without them it integrates, which is slower.
     MicrofacetReflection(const Distribution& distribution, const Fresnel& fresnel,
@@ -51,7 +54,7 @@ public:
         t.exact_pdf = true;
         t.delta = detail::any<Real>(_distribution.is_delta());
         t.anisotropic = !detail::all<Real>(_distribution.alpha_x() == _distribution.alpha_y());
-        t.random_numbers = 2;
+        t.random_numbers = random_numbers;
         return t;
     }
 
@@ -65,7 +68,7 @@ public:
               // Directions of hosts are unit up to their own rounding, samples up to this type's.
               _wo(detail::normalised(
                   detail::select(_valid, wo, Vec3<Real>(Real(0), Real(0), Real(1))))),
-              _visible(lobe._distribution.visible(_wo)),
+              _visible(lobe._distribution.reflecting(_wo)),
               _weight(detail::select(_valid, Real(1), Real(0)))
         {}
 
@@ -82,8 +85,12 @@ public:
                                   Color(Real(0)));
         }
 
-        /// u in [0, 1)^2.
         Sample<Real> sample(const Vec2<Real>& u) const
+        {
+            return sample(detail::two_numbers<MicrofacetReflection>(u));
+        }
+        /// u in [0, 1)^3, of which the first `random_numbers` are read.
+        Sample<Real> sample(const Vec3<Real>& u) const
         {
             const Vec3<Real> m =
                 detail::select(_delta, Vec3<Real>(Real(0), Real(0), Real(1)), _visible.sample(u));
@@ -165,13 +172,12 @@ public:
         Color tabulated_albedo() const
         {
             const MicrofacetTables& tables = _lobe._tables;
-            const Real alpha = _lobe._distribution.effective_alpha(), mu = _wo.z;
-            const Real x = stretched_cosine(mu, alpha), y = detail::sqrt(alpha);
-            const Real E =
-                detail::select(_delta, Real(1), detail::min(tables.E_ss.at(x, y), Real(1)));
+            const TableAxes<Real> axes(_lobe._distribution);
+            const Real mu = _wo.z;
+            const Real E = detail::select(_delta, Real(1), tables.albedo(axes, mu));
             FresnelMoments<Real> moments = FresnelMoments<Real>::at(mu);
-            moments.falloff += tables.falloff.at(x, y);
-            moments.dip += tables.dip.at(x, y);
+            moments.falloff += axes.directional(tables.falloff, mu);
+            moments.dip += axes.directional(tables.dip, mu);
             const Color F =
                 detail::select(_delta, _lobe._fresnel.at(mu), _lobe._fresnel.mean(moments));
             return F * _weight * E;
@@ -180,7 +186,7 @@ public:
         MicrofacetReflection _lobe;
         Mask _delta, _valid;
         Vec3<Real> _wo;
-        typename Distribution::Visible _visible;
+        decltype(std::declval<const Distribution&>().reflecting(Vec3<Real>())) _visible;
         Color _weight;
     };
 
@@ -188,6 +194,10 @@ public:
 
     Color eval(const Vec3<Real>& wo, const Vec3<Real>& wi) const { return prepare(wo).eval(wi); }
     Sample<Real> sample(const Vec3<Real>& wo, const Vec2<Real>& u) const
+    {
+        return prepare(wo).sample(u);
+    }
+    Sample<Real> sample(const Vec3<Real>& wo, const Vec3<Real>& u) const
     {
         return prepare(wo).sample(u);
     }

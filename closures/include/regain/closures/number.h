@@ -12,6 +12,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <type_traits>
 
 REGAIN_NAMESPACE_BEGIN
@@ -26,6 +27,7 @@ struct NumberTraits<Real, std::enable_if_t<std::is_floating_point_v<Real>>>
     using Scalar = Real;
     using Mask = bool;
     using Index = int;
+    using Bits = std::uint32_t;
 
     static Real select(bool mask, Real a, Real b) { return mask ? a : b; }
     static bool all(bool mask) { return mask; }
@@ -42,6 +44,38 @@ struct NumberTraits<Real, std::enable_if_t<std::is_floating_point_v<Real>>>
     static Real sin(Real x) { return std::sin(x); }
     static Real cos(Real x) { return std::cos(x); }
     static Real pow(Real x, Real y) { return std::pow(x, y); }
+    static Real exp(Real x) { return std::exp(x); }
+    static Real log(Real x) { return std::log(x); }
+    static Real expm1(Real x) { return std::expm1(x); }
+    static Real log1p(Real x) { return std::log1p(x); }
+    static Real erf(Real x) { return std::erf(x); }
+    static Real erfc(Real x) { return std::erfc(x); }
+
+    /// Bits that differ where numbers differ, for hashing.
+    static Bits bits(Real x)
+    {
+        if constexpr (sizeof(Real) == 4)
+        {
+            Bits b;
+            std::memcpy(&b, &x, sizeof b);
+            return b;
+        }
+        else
+        {
+            std::uint64_t b;
+            std::memcpy(&b, &x, sizeof b);
+            return static_cast<Bits>(b ^ (b >> 32));
+        }
+    }
+    /// A number in [0, 1) from random bits; the second half serves where one is too short.
+    static Real unit(Bits a, [[maybe_unused]] Bits b)
+    {
+        if constexpr (sizeof(Real) == 4)
+            return static_cast<Real>(a >> 8) * Real(0x1p-24);
+        else
+            return (static_cast<Real>(a >> 5) * Real(0x1p26) + static_cast<Real>(b >> 6)) *
+                   Real(0x1p-53);
+    }
 
     /// Towards zero; x is within the range of int.
     static Index truncate(Real x) { return static_cast<int>(x); }
@@ -58,6 +92,8 @@ template <class Real>
 using ScalarOf = typename NumberTraits<Real>::Scalar;
 template <class Real>
 using IndexOf = typename NumberTraits<Real>::Index;
+template <class Real>
+using BitsOf = typename NumberTraits<Real>::Bits;
 
 namespace detail {
 
@@ -105,6 +141,36 @@ template <class T>
 T pow(const T& x, const T& y)
 {
     return NumberTraits<T>::pow(x, y);
+}
+template <class T>
+T exp(const T& x)
+{
+    return NumberTraits<T>::exp(x);
+}
+template <class T>
+T log(const T& x)
+{
+    return NumberTraits<T>::log(x);
+}
+template <class T>
+T expm1(const T& x)
+{
+    return NumberTraits<T>::expm1(x);
+}
+template <class T>
+T log1p(const T& x)
+{
+    return NumberTraits<T>::log1p(x);
+}
+template <class T>
+T erf(const T& x)
+{
+    return NumberTraits<T>::erf(x);
+}
+template <class T>
+T erfc(const T& x)
+{
+    return NumberTraits<T>::erfc(x);
 }
 
 /// Both masks hold. The operator & says so too, but on two bools it is more often a slip.

@@ -9,11 +9,12 @@
 /// axis is stretched by alpha:
 ///     x = sqrt(mu / (mu + alpha (1 - mu)))   in [0, 1]
 ///     y = sqrt(alpha)                        in [0, 1]
-/// with mu = |cos theta_o| in [0, 1], alpha in [0, 1].
+/// with mu = |cos theta_o| in [0, 1], alpha in [0, 1]. A distribution with a tail parameter gamma
+/// has a third axis z in [0, 1], its tail(): see distribution.h.
 
 #pragma once
 
-#include <regain/closures/vector.h>
+#include <regain/closures/distribution.h>
 
 #include <cstdint>
 
@@ -26,12 +27,12 @@ Real stretched_cosine(Real mu, Real alpha)
     return detail::sqrt(mu / (mu + alpha * (Real(1) - mu)));
 }
 
-/// A table of `width` x `height` 16-bit numbers, x fastest; height 1 for a single axis. A value is
-/// offset + scale * stored. The default is no table.
+/// A table of `width` x `height` x `depth` 16-bit numbers, x fastest; an axis that is not there has
+/// length 1. A value is offset + scale * stored. The default is no table.
 struct TableView
 {
     const std::uint16_t* data = nullptr;
-    int width = 0, height = 0;
+    int width = 0, height = 0, depth = 1;
     float offset = 0, scale = 1.0f / 65535;
 
     explicit operator bool() const { return data != nullptr; }
@@ -49,9 +50,17 @@ struct TableView
     Real at(Real x, Real y) const
     {
         const Cell<Real> i(x, width), j(y, height);
-        const auto line = j.low * width;
-        const Real a = row(i, line), b = row(i, line + width);
-        return value(a + (b - a) * j.fraction);
+        return value(plane(i, j, j.low * width));
+    }
+
+    /// Value at (x, y, z), each in [0, 1]; the table has three axes and is not empty.
+    template <class Real>
+    Real at(Real x, Real y, Real z) const
+    {
+        const Cell<Real> i(x, width), j(y, height), k(z, depth);
+        const auto line = (k.low * height + j.low) * width;
+        const Real a = plane(i, j, line), b = plane(i, j, line + height * width);
+        return value(a + (b - a) * k.fraction);
     }
 
 private:
@@ -79,6 +88,14 @@ private:
         return a + (b - a) * i.fraction;
     }
 
+    // Line is the index of the first node of the row below.
+    template <class Real, class Line>
+    Real plane(const Cell<Real>& i, const Cell<Real>& j, const Line& line) const
+    {
+        const Real a = row(i, line), b = row(i, line + width);
+        return a + (b - a) * j.fraction;
+    }
+
     template <class Real>
     Real value(Real stored) const
     {
@@ -86,14 +103,59 @@ private:
     }
 };
 
+/// Where a distribution lies on the axes of its tables: all but the cosine.
+template <class RealType>
+class TableAxes
+{
+public:
+    using Real = RealType;
+
+    template <class Distribution>
+    explicit TableAxes(const Distribution& distribution)
+        : _alpha(distribution.effective_alpha()),
+          _sqrt_alpha(detail::sqrt(_alpha)),
+          _tail(detail::tail_of(distribution)),
+          _has_tail(Distribution::has_tail)
+    {}
+
+    Real alpha() const { return _alpha; }
+
+    /// mu in [0, 1].
+    Real directional(const TableView& table, Real mu) const
+    {
+        const Real x = stretched_cosine(mu, _alpha);
+        return _has_tail ? table.at(x, _sqrt_alpha, _tail) : table.at(x, _sqrt_alpha);
+    }
+    Real average(const TableView& table) const
+    {
+        return _has_tail ? table.at(_sqrt_alpha, _tail) : table.at(_sqrt_alpha);
+    }
+
+private:
+    Real _alpha, _sqrt_alpha, _tail;
+    bool _has_tail;
+};
+
 /// What is tabulated of one distribution. A view that is empty is a table nobody needs.
 struct MicrofacetTables
 {
-    TableView E_ss;   ///< single-scattering albedo with F = 1, over (x, y); limit look-ups to 1
-    TableView E_avg;  ///< 2 int_0^1 E_ss mu dmu, over y
-    /// Over (x, y): the moments of fresnel_moments.h over all that is scattered once, each less its
-    /// value at mu.
+    TableView E_ss;   ///< single-scattering albedo with F = 1, over (x, y[, z])
+    TableView E_avg;  ///< 2 int_0^1 E_ss mu dmu, over (y[, z])
+    /// Over (x, y[, z]): the moments of fresnel_moments.h over all that is scattered once, each
+    /// less its value at mu.
     TableView falloff, dip;
+
+    /// E_ss at the cosine mu in [0, 1], at most 1.
+    template <class Real>
+    Real albedo(const TableAxes<Real>& axes, Real mu) const
+    {
+        return detail::min(axes.directional(E_ss, mu), Real(1));
+    }
+    template <class Real>
+    Real average_albedo(const TableAxes<Real>& axes) const
+    {
+        return axes.average(E_avg);
+    }
 };
 
 REGAIN_NAMESPACE_END

@@ -21,6 +21,7 @@ struct NumberTraits<xsimd::batch<T, Arch>>
     using Scalar = T;
     using Mask = typename Batch::batch_bool_type;
     using Index = xsimd::batch<xsimd::as_integer_t<T>, Arch>;
+    using Bits = xsimd::batch<xsimd::as_unsigned_integer_t<T>, Arch>;
 
     static Batch select(const Mask& mask, const Batch& a, const Batch& b)
     {
@@ -38,6 +39,18 @@ struct NumberTraits<xsimd::batch<T, Arch>>
     static Batch sin(const Batch& x) { return xsimd::sin(x); }
     static Batch cos(const Batch& x) { return xsimd::cos(x); }
     static Batch pow(const Batch& x, const Batch& y) { return xsimd::pow(x, y); }
+    static Batch exp(const Batch& x) { return xsimd::exp(x); }
+    static Batch log(const Batch& x) { return xsimd::log(x); }
+    static Batch expm1(const Batch& x) { return xsimd::expm1(x); }
+    static Batch log1p(const Batch& x) { return xsimd::log1p(x); }
+    static Batch erf(const Batch& x) { return xsimd::erf(x); }
+    static Batch erfc(const Batch& x) { return xsimd::erfc(x); }
+
+    static Bits bits(const Batch& x) { return xsimd::bitwise_cast<Bits>(x); }
+    static Batch unit(const Bits& a, const Bits&)
+    {
+        return to_real(xsimd::bitwise_cast<Index>(a >> 8)) * Batch(T(0x1p-24));
+    }
 
     static Index truncate(const Batch& x) { return xsimd::to_int(x); }
     static Batch to_real(const Index& i) { return xsimd::to_float(i); }

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+/// @file
+/// More random numbers from those that the host passed. A few of what is sampled here takes a
+/// number of random numbers that is known only afterwards: rejection, a walk of any length. Such
+/// code uses the host's numbers first and then a stream that they determine, so that the same
+/// arguments give the same answer and nothing is hidden.
+///
+/// The stream hashes a counter with a key (two rounds of the 32-bit mixer "lowbias32", Wellons
+/// 2018); the key is a hash of the bits of the numbers.
+
+#pragma once
+
+#include <regain/closures/vector.h>
+
+REGAIN_NAMESPACE_BEGIN
+
+template <class Real>
+class RandomStream
+{
+public:
+    using Bits = BitsOf<Real>;
+
+    /// u: numbers in [0, 1). Streams of different u are as good as independent.
+    explicit RandomStream(const Vec3<Real>& u)
+    {
+        using Number = NumberTraits<Real>;
+        _key = mixed(Number::bits(u.x));
+        _key = mixed((_key ^ Number::bits(u.y)) + Bits(0x9E3779B9u));
+        _key = mixed((_key ^ Number::bits(u.z)) + Bits(0x3C6EF372u));
+    }
+
+    /// The next number, uniform in [0, 1).
+    Real next()
+    {
+        using Number = NumberTraits<Real>;
+        const Bits a = bits();
+        if constexpr (sizeof(ScalarOf<Real>) == 4)
+            return Number::unit(a, a);
+        else
+            return Number::unit(a, bits());
+    }
+    Vec2<Real> next2()
+    {
+        const Real x = next();
+        return {x, next()};
+    }
+    Vec3<Real> next3()
+    {
+        const Real x = next(), y = next();
+        return {x, y, next()};
+    }
+
+private:
+    Bits bits() { return mixed(_key ^ mixed(Bits(_counter += 0x9E3779B9u))); }
+
+    static Bits mixed(Bits x)
+    {
+        x ^= x >> 16;
+        x *= Bits(0x7FEB352Du);
+        x ^= x >> 15;
+        x *= Bits(0x846CA68Bu);
+        x ^= x >> 16;
+        return x;
+    }
+
+    Bits _key;
+    std::uint32_t _counter = 0;
+};
+
+REGAIN_NAMESPACE_END

@@ -178,7 +178,7 @@ public:
         Terms terms(const Vec3<Real>& wi) const
         {
             const Mask valid = detail::both<Real>(_valid, detail::is_above_horizon(wi));
-            return {valid, detail::select(valid, detail::min(wi.z, Real(1)), Real(1))};
+            return {valid, detail::min(detail::select(valid, wi.z, Real(1)), Real(1))};
         }
         // f cos theta_i of a white lobe.
         Real value(const Terms& t) const { return _scale * _lobe.loss(t.mu) * t.mu; }

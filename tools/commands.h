@@ -15,6 +15,7 @@ namespace regain::tools {
 
 // Add each command here and in main.cpp, in the order in which --help should list them.
 void add_render(CLI::App& app, int& exit_code);
+void add_figures(CLI::App& app, int& exit_code);
 void add_albedo(CLI::App& app, int& exit_code);
 void add_query(CLI::App& app, int& exit_code);
 void add_bake(CLI::App& app, int& exit_code);

@@ -131,9 +131,10 @@ void add_figures(CLI::App& app, int& exit_code)
         app.add_subcommand("figures", "The paper's figures and table, measured beside its claims");
     std::string known;
     for (const Maker& m : makers()) known += fmt::format("  {:8}{}\n", m.name, m.summary);
-    command->footer("Each figure of Turquin 2019, made again with this library alone: pictures, "
-                    "plots and\nnumbers, and whether what the paper says is what was measured.\n\n" +
-                    known + R"(
+    command->footer(
+        "Each figure of Turquin 2019, made again with this library alone: pictures, "
+        "plots and\nnumbers, and whether what the paper says is what was measured.\n\n" +
+        known + R"(
 Everything goes into one folder, with index.html for people and figures.json for
 machines. What a picture or plot was made from stands there, too.
 

@@ -18,6 +18,7 @@ int main(int argc, char** argv)
 
     int exit_code = kDone;
     add_render(app, exit_code);
+    add_figures(app, exit_code);
     add_albedo(app, exit_code);
     add_query(app, exit_code);
     add_bake(app, exit_code);

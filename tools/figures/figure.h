@@ -39,8 +39,8 @@ struct Table
 
 struct Figure
 {
-    std::string name;   ///< "1" to "9", "table1"
-    std::string title;  ///< what is to be seen
+    std::string name;                             ///< "1" to "9", "table1"
+    std::string title;                            ///< what is to be seen
     std::vector<std::filesystem::path> pictures;  ///< PNG and SVG, within the output folder
     std::vector<Finding> findings;
     std::vector<Table> tables;
@@ -75,6 +75,7 @@ struct Maker
 /// All of them, in the paper's order.
 const std::vector<Maker>& makers();
 
+Figure make_figure4(const Request&);
 Figure make_figure5(const Request&);
 Figure make_figure7(const Request&);
 Figure make_table1(const Request&);

@@ -49,8 +49,8 @@ Lobes walked(const Distribution& distribution, double mu, std::uint64_t n, std::
     for (std::uint64_t i = 0; i < n; ++i)
     {
         const auto path = prepared.path(Imath::V3f(lattice_point(i, shift)));
-        const auto order = static_cast<std::size_t>(
-            std::min(static_cast<int>(path.bounces), orders) - 1);
+        const auto order =
+            static_cast<std::size_t>(std::min(static_cast<int>(path.bounces), orders) - 1);
         const auto& w = path.wi;
         lobes.histogram[order][histogram_bin(Imath::V3d(w))] += 1 / double(n);
         // The angle from the horizon on the side of wo, 0, over the normal to the other horizon.
@@ -107,8 +107,8 @@ LobePanel add_case(const Request& request, Figure& figure, Table& table, const c
     for (std::size_t i = 0; i < later.size(); ++i)
         later[i] = lobes.histogram[1][i] + lobes.histogram[2][i];
     const MissingEnergyLobe<float> added(distribution, tables);
-    const Histogram kulla_conty = normalised(
-        reflected_histogram(added.prepare(at_angle<float>(mu)), 1 << 20, request.seed));
+    const Histogram kulla_conty =
+        normalised(reflected_histogram(added.prepare(at_angle<float>(mu)), 1 << 20, request.seed));
     const Histogram first = normalised(lobes.histogram[0]);
     later = normalised(later);
     const double to_first = shape_error(first, later), to_added = shape_error(kulla_conty, later);
@@ -134,14 +134,15 @@ Figure make_figure4(const Request& request)
     const MicrofacetTables ggx = luts::microfacet_tables("ggx"),
                            beckmann = luts::microfacet_tables("beckmann");
 
-    Table table{"Distance of the lobe of all later bounces (L1 over 512 directions, each lobe "
-                "scaled to energy 1; 0 the same, 2 nothing in common)",
-                {"distribution", "alpha", "mu", "to the primary lobe", "to Kulla and Conty's"},
-                {}};
+    Table table{
+        "Distance of the lobe of all later bounces (L1 over 512 directions, each lobe "
+        "scaled to energy 1; 0 the same, 2 nothing in common)",
+        {"distribution", "alpha", "mu", "to the primary lobe", "to Kulla and Conty's"},
+        {}};
     std::vector<LobePanel> panels;
     for (const float alpha : {0.5f, 1.0f})
-        panels.push_back(add_case(request, figure, table, "Beckmann", Beckmann<float>(alpha), 0.5,
-                                  beckmann));
+        panels.push_back(
+            add_case(request, figure, table, "Beckmann", Beckmann<float>(alpha), 0.5, beckmann));
     for (const float alpha : {0.5f, 1.0f})
         panels.push_back(add_case(request, figure, table, "GGX", GGX<float>(alpha), 0.5, ggx));
 
@@ -152,18 +153,20 @@ Figure make_figure4(const Request& request)
         return figure.numbers[row][to].get<double>();
     };
     figure.findings.push_back(tested(
-        "Secondary lobes do not look diffuse but like scaled-down versions of the primary one (shown "
+        "Secondary lobes do not look diffuse but like scaled-down versions of the primary one "
+        "(shown "
         "for Beckmann).",
         fmt::format("Beckmann at alpha 0.5: the later bounces are {:.2f} from the primary lobe and "
                     "{:.2f} from Kulla and Conty's.",
                     distance(0, "L1_to_primary"), distance(0, "L1_to_kulla_conty")),
         distance(0, "L1_to_primary") < distance(0, "L1_to_kulla_conty")));
     const bool ggx_too = distance(2, "L1_to_primary") < distance(2, "L1_to_kulla_conty");
-    figure.findings.push_back(tested(
-        "The same is assumed of GGX, which the paper's method is used with.",
-        fmt::format("GGX at alpha 0.5: {:.2f} from the primary lobe, {:.2f} from Kulla and Conty's.",
-                    distance(2, "L1_to_primary"), distance(2, "L1_to_kulla_conty")),
-        ggx_too));
+    figure.findings.push_back(
+        tested("The same is assumed of GGX, which the paper's method is used with.",
+               fmt::format(
+                   "GGX at alpha 0.5: {:.2f} from the primary lobe, {:.2f} from Kulla and Conty's.",
+                   distance(2, "L1_to_primary"), distance(2, "L1_to_kulla_conty")),
+               ggx_too));
     figure.tables.push_back(table);
     return figure;
 }

@@ -13,6 +13,7 @@
 #include <regain/closures/kulla_conty.h>
 #include <regain/closures/walk.h>
 #include <regain/luts/albedo_integral.h>
+#include <regain/luts/quadrature.h>
 
 #include <fmt/format.h>
 
@@ -41,12 +42,12 @@ void plot_tint(const Request& request, Figure& figure)
         off_series = std::max(off_series, std::abs(s - F * F));
     }
     const auto file = request.folder / "figure7-left.svg";
-    write_text(file, svg_plot("F_ms for E_avg = 0.4", {"F_ss"}, {"F_ms"},
-                              {printed, square, series}));
+    write_text(file,
+               svg_plot("F_ms for E_avg = 0.4", {"F_ss"}, {"F_ms"}, {printed, square, series}));
     figure.pictures.push_back(file);
-    figure.findings.push_back(tested(
-        "E_avg is close to 0.4 at alpha = 1.", fmt::format("E_avg = {:.5f}.", E_avg),
-        std::abs(E_avg - 0.4) < 0.02));
+    figure.findings.push_back(tested("E_avg is close to 0.4 at alpha = 1.",
+                                     fmt::format("E_avg = {:.5f}.", E_avg),
+                                     std::abs(E_avg - 0.4) < 0.02));
     figure.findings.push_back(tested(
         "F_ms of Eq. 7 gets close to F_ss^2; F_ss^2 would be slightly more saturated.",
         fmt::format("The two differ by up to {:.3f}, and Eq. 7 is never below the square. The "
@@ -101,8 +102,7 @@ void plot_depth(const Request& request, Figure& figure)
             at_worst = alpha;
         }
     }
-    for (int i = 0; i <= 100; ++i)
-        fit.points.emplace_back(i / 100.0, 1 + std::pow(i / 100.0, 1.5));
+    for (int i = 0; i <= 100; ++i) fit.points.emplace_back(i / 100.0, 1 + std::pow(i / 100.0, 1.5));
     const auto file = request.folder / "figure7-right.svg";
     write_text(file, svg_plot("Average depth of the random walk, GGX", {"alpha"},
                               {"facets met", 1, 2.2, 0.2}, {fit, measured}));

@@ -40,7 +40,7 @@ inline Imath::V3d lattice_point(std::uint64_t i, const Imath::V3d& shift)
 struct SampledEnergy
 {
     Imath::Color3<double> reflect{0.0}, transmit{0.0};  ///< mean weight
-    double variance = 0;  ///< of the first channel's weight, over the square of its mean
+    double variance = 0;        ///< of the first channel's weight, over the square of its mean
     double standard_error = 0;  ///< of independent samples; a lattice does better
     double largest = 0;         ///< weight seen
 };
@@ -104,8 +104,7 @@ Histogram reflected_histogram(const Prepared& prepared, std::uint64_t n, std::ui
         const auto s = prepared.sample(
             Vec3<Real>(static_cast<Real>(u.x), static_cast<Real>(u.y), static_cast<Real>(u.z)));
         if (!s.valid || s.transmitted) continue;
-        bins[histogram_bin(Imath::V3d(s.wi))] +=
-            double(s.weight.x) / static_cast<double>(n);
+        bins[histogram_bin(Imath::V3d(s.wi))] += double(s.weight.x) / static_cast<double>(n);
     }
     return bins;
 }

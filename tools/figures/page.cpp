@@ -82,8 +82,8 @@ std::string html_page(const std::vector<Figure>& figures)
         style);
     for (const Figure& figure : figures)
     {
-        out += fmt::format("<h2 id=\"{}\">{}</h2>\n", escaped(figure.name),
-                           escaped(heading(figure)));
+        out +=
+            fmt::format("<h2 id=\"{}\">{}</h2>\n", escaped(figure.name), escaped(heading(figure)));
         for (const auto& picture : figure.pictures)
             out += fmt::format("<img src=\"{0}\" alt=\"{1}\">\n",
                                escaped(picture.filename().string()), escaped(heading(figure)));

@@ -58,8 +58,8 @@ std::string drawn(const Curve& curve, const std::vector<V2d>& pixels)
     if (curve.marks)
     {
         for (const V2d& p : pixels)
-            out += fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"3.5\" fill=\"{}\"/>\n",
-                               p.x, p.y, curve.color);
+            out += fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"3.5\" fill=\"{}\"/>\n", p.x,
+                               p.y, curve.color);
         return out;
     }
     out = fmt::format("<polyline {} points=\"", stroke(curve));
@@ -124,9 +124,10 @@ std::string svg_plot(const std::string& title, const Axis& x, const Axis& y,
     // A clip of its own, so that several plots can share a page.
     static int clip = 0;
     const int id = ++clip;
-    out += fmt::format("<clipPath id=\"frame{}\"><rect x=\"{}\" y=\"{}\" width=\"{}\" "
-                       "height=\"{}\"/></clipPath>\n<g clip-path=\"url(#frame{})\">\n",
-                       id, left - 4, top - 4, width + 8, height + 8, id);
+    out += fmt::format(
+        "<clipPath id=\"frame{}\"><rect x=\"{}\" y=\"{}\" width=\"{}\" "
+        "height=\"{}\"/></clipPath>\n<g clip-path=\"url(#frame{})\">\n",
+        id, left - 4, top - 4, width + 8, height + 8, id);
     for (const Curve& curve : curves)
     {
         std::vector<V2d> pixels;
@@ -134,9 +135,10 @@ std::string svg_plot(const std::string& title, const Axis& x, const Axis& y,
         out += drawn(curve, pixels);
     }
     out += "</g>\n";
-    out += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" "
-                       "stroke=\"black\"/>\n",
-                       left, top, width, height);
+    out += fmt::format(
+        "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" "
+        "stroke=\"black\"/>\n",
+        left, top, width, height);
     out += legend(curves, left + width + 16, top + 14);
     return document(left + width + right, top + height + bottom, out);
 }

@@ -34,14 +34,14 @@ constexpr double shape_cosines[] = {0.2, 0.5, 0.9};
 /// What is measured of one method.
 struct Measured
 {
-    double energy = 0;                   ///< largest |1 - E| with F = 1
-    double tint = 0, tint_squares = 0;   ///< largest difference from the walk, sum of squares
+    double energy = 0;                  ///< largest |1 - E| with F = 1
+    double tint = 0, tint_squares = 0;  ///< largest difference from the walk, sum of squares
     int tints = 0;
-    double shape = 0, worst_shape = 0;   ///< mean and largest L1 distance from the walk
-    double reciprocity = 0;              ///< largest |f(wo, wi) / f(wi, wo) - 1|
-    double variance = 0;                 ///< of the weight with F = 1, mean over the shape cases
-    double eval = 0, sample = 0;         ///< nanoseconds, prepare included
-    std::size_t tables = 0;              ///< bytes that are read
+    double shape = 0, worst_shape = 0;  ///< mean and largest L1 distance from the walk
+    double reciprocity = 0;             ///< largest |f(wo, wi) / f(wi, wo) - 1|
+    double variance = 0;                ///< of the weight with F = 1, mean over the shape cases
+    double eval = 0, sample = 0;        ///< nanoseconds, prepare included
+    std::size_t tables = 0;             ///< bytes that are read
 
     double tint_rms() const { return std::sqrt(tint_squares / std::max(tints, 1)); }
 };
@@ -71,8 +71,8 @@ auto copper()
 // What the walk says, once for all methods.
 struct Truth
 {
-    std::vector<ColorD> tints;       ///< by alpha, cosine, Fresnel term
-    std::vector<Histogram> shapes;   ///< by alpha, cosine
+    std::vector<ColorD> tints;      ///< by alpha, cosine, Fresnel term
+    std::vector<Histogram> shapes;  ///< by alpha, cosine
     double standard_error = 0;
 };
 
@@ -153,8 +153,7 @@ void measure_lobes(const Make& make, const Request& request, const Truth& truth,
         }
     std::size_t i = 0;
     for_each_tint(make, [&](const auto& prepared) {
-        const ColorD off =
-            sampled_energy(prepared, n, request.seed + 1).reflect - truth.tints[i++];
+        const ColorD off = sampled_energy(prepared, n, request.seed + 1).reflect - truth.tints[i++];
         m.tint = std::max(m.tint, largest(off));
         m.tint_squares += off.x * off.x + off.y * off.y + off.z * off.z;
         m.tints += 3;
@@ -162,8 +161,8 @@ void measure_lobes(const Make& make, const Request& request, const Truth& truth,
     std::size_t k = 0;
     constexpr double cases = 6;
     for_each_shape(make, [&](const auto& prepared) {
-        const double off = shape_error(reflected_histogram(prepared, 16 * n, request.seed + 2),
-                                       truth.shapes[k++]);
+        const double off =
+            shape_error(reflected_histogram(prepared, 16 * n, request.seed + 2), truth.shapes[k++]);
         m.shape += off / cases;
         m.worst_shape = std::max(m.worst_shape, off);
         m.variance += sampled_energy(prepared, n, request.seed + 3).variance / cases;
@@ -261,7 +260,8 @@ auto walking()
 
 Truth walk_truth(const Request& request)
 {
-    const auto tint_walks = static_cast<std::uint64_t>(std::max(1024.0, 400000 * request.precision));
+    const auto tint_walks =
+        static_cast<std::uint64_t>(std::max(1024.0, 400000 * request.precision));
     const auto shape_walks = static_cast<std::uint64_t>(std::max(1024.0, 8e6 * request.precision));
     Truth truth;
     for_each_tint(walking(), [&](const auto& prepared) {
@@ -341,9 +341,10 @@ void add_findings(const std::vector<Row>& rows, Figure& figure)
     };
     add("Shape of secondary lobes: the scaled primary is closer to ground truth than Kulla and "
         "Conty's.",
-        fmt::format("Distance of the whole lobe from the walk's, GGX: {:.3f} scaled primary, {:.3f} "
-                    "Kulla and Conty.",
-                    ours.shape, added.shape),
+        fmt::format(
+            "Distance of the whole lobe from the walk's, GGX: {:.3f} scaled primary, {:.3f} "
+            "Kulla and Conty.",
+            ours.shape, added.shape),
         ours.shape < added.shape);
     add("Reciprocity: Heitz et al. yes, Kulla and Conty yes, ours no.",
         fmt::format("Largest |f(wo, wi) / f(wi, wo) - 1|: walk {:.2g} (noise), Kulla and Conty "
@@ -351,10 +352,11 @@ void add_findings(const std::vector<Row>& rows, Figure& figure)
                     walk.reciprocity, added.reciprocity, ours.reciprocity),
         added.reciprocity < 1e-4 && ours.reciprocity > 0.01);
     add("Optimal sampling: ours alone reuses the primary's sampler.",
-        fmt::format("Relative variance of the weight with F = 1: none {:.4f}, turquin {:.4f}, Kulla "
-                    "and Conty {:.4f} (exact pdf of the mixture), walk {:.4f} (weights of 1; eval "
-                    "is an estimate).",
-                    none.variance, ours.variance, added.variance, walk.variance),
+        fmt::format(
+            "Relative variance of the weight with F = 1: none {:.4f}, turquin {:.4f}, Kulla "
+            "and Conty {:.4f} (exact pdf of the mixture), walk {:.4f} (weights of 1; eval "
+            "is an estimate).",
+            none.variance, ours.variance, added.variance, walk.variance),
         ours.variance <= none.variance * 1.001 + 1e-6);
     add("Speed: ours is marginally faster than Kulla and Conty; the walk is 7 times slower "
         "(Mitsuba, whole renders).",
@@ -370,12 +372,12 @@ void add_findings(const std::vector<Row>& rows, Figure& figure)
                     none.energy, ours.energy, added.energy, walk.energy),
         ours.energy < 2e-3 && added.energy < 2e-3 && walk.energy < 2e-3);
     add("Whatever F_ms is chosen of Eqs. 12 to 15, results are very close.",
-        fmt::format("Largest colour error against the walk: {:.3f} (Eq. 12), {:.3f} (Eq. 13), {:.3f} "
-                    "(Eq. 14), {:.3f} (Eq. 15), {:.3f} (series).",
-                    row_of(rows, "turquin-eq12").measured.tint,
-                    row_of(rows, "turquin-eq13").measured.tint,
-                    row_of(rows, "turquin-eq14").measured.tint, ours.tint,
-                    row_of(rows, "series").measured.tint),
+        fmt::format(
+            "Largest colour error against the walk: {:.3f} (Eq. 12), {:.3f} (Eq. 13), {:.3f} "
+            "(Eq. 14), {:.3f} (Eq. 15), {:.3f} (series).",
+            row_of(rows, "turquin-eq12").measured.tint, row_of(rows, "turquin-eq13").measured.tint,
+            row_of(rows, "turquin-eq14").measured.tint, ours.tint,
+            row_of(rows, "series").measured.tint),
         row_of(rows, "turquin-eq12").measured.tint < 0.1);
 }
 
@@ -399,8 +401,8 @@ Figure make_table1(const Request& request)
     for (const Method method : all_methods)
     {
         const bool averaged = method == Method::turquin_eq12 || method == Method::series;
-        add(std::string(name(method)), method == Method::none ? "-" : "gain(wo)",
-            with_gain(method), method == Method::none ? 0 : E_ss + (averaged ? E_avg : 0));
+        add(std::string(name(method)), method == Method::none ? "-" : "gain(wo)", with_gain(method),
+            method == Method::none ? 0 : E_ss + (averaged ? E_avg : 0));
     }
     for (const KullaContyForm form : all_kulla_conty_forms)
         add(std::string(name(form)), "added lobe", with_added_lobe(form), E_ss);
@@ -408,13 +410,14 @@ Figure make_table1(const Request& request)
     clock_all(rows, request);
 
     const Measured none = row_of(rows, "none").measured;
-    Table table{"GGX conductors, against the random walk: alpha 0.25 to 1, mu 0.1 to 1; energy and "
-                "shape with F = 1; colour: Schlick terms, gold, copper; times: float, one point at "
-                "a time, prepare included, alpha 0.5",
-                {"method", "form", "energy, worst", "tint, worst", "tint, rms", "shape, mean",
-                 "shape, worst", "reciprocity", "variance", "eval ns", "eval ratio", "sample ns",
-                 "sample ratio", "tables"},
-                {}};
+    Table table{
+        "GGX conductors, against the random walk: alpha 0.25 to 1, mu 0.1 to 1; energy and "
+        "shape with F = 1; colour: Schlick terms, gold, copper; times: float, one point at "
+        "a time, prepare included, alpha 0.5",
+        {"method", "form", "energy, worst", "tint, worst", "tint, rms", "shape, mean",
+         "shape, worst", "reciprocity", "variance", "eval ns", "eval ratio", "sample ns",
+         "sample ratio", "tables"},
+        {}};
     for (const Row& row : rows)
     {
         const Measured& m = row.measured;

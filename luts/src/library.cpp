@@ -142,13 +142,13 @@ MicrofacetTables microfacet_tables(const std::string& distribution)
     return tables;
 }
 
-DielectricTables dielectric_tables(const std::string& distribution, ShadowingTables shadowing,
+DielectricTables dielectric_tables(const std::string& distribution, TransmissionShadowing shadowing,
                                    double gamma)
 {
     TableInfo info;
     info.distribution = distribution;
     info.gamma = distribution == "gtr" || distribution == "std" ? gamma : 0;
-    info.transmission_shadowing = shadowing == ShadowingTables::beta ? "beta" : "correlated";
+    info.transmission_shadowing = shadowing == TransmissionShadowing::beta ? "beta" : "correlated";
     DielectricTables tables;
     for (int side = 0; side < 2; ++side)
     {

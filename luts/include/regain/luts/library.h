@@ -17,7 +17,7 @@
 
 #pragma once
 
-#include <regain/closures/dielectric_tables.h>
+#include <regain/closures/dielectric.h>
 #include <regain/luts/table.h>
 
 #include <filesystem>
@@ -38,13 +38,11 @@ REGAIN_LUTS_API std::vector<std::filesystem::path> table_folders();
 /// stale; it names the file, the places that were looked in and the command that bakes it.
 REGAIN_LUTS_API MicrofacetTables microfacet_tables(const std::string& distribution);
 
-/// Which form of shadowing transmission has; see luts/dielectric_integral.h.
-enum class ShadowingTables { correlated, beta };
-
 /// The dielectric tables of a distribution; errors as above. gtr and std have tables for one gamma
 /// each, none of which is shipped: bake them.
 REGAIN_LUTS_API DielectricTables dielectric_tables(const std::string& distribution,
-                                                   ShadowingTables shadowing, double gamma = 0);
+                                                   TransmissionShadowing shadowing,
+                                                   double gamma = 0);
 
 /// One table by its name, compiled in or loaded; errors as above.
 REGAIN_LUTS_API TableView table_named(const std::string& name);

@@ -71,6 +71,18 @@ public:
     Real reflectance(Real mu) const { return split(mu).reflectance; }
     Real transmittance(Real mu) const { return split(mu).transmittance; }
 
+    /// 1 - F of a pair of directions that refract into each other: mu_o on the near side, mu_i on
+    /// the far side. Where only one of the cosines is known, the other loses its digits near the
+    /// critical angle.
+    Real transmittance(Real mu_o, Real mu_i) const
+    {
+        const Real tiny = detail::constant<Real>(1e-18);
+        const Real c = detail::max(mu_o, tiny), t = detail::max(mu_i, tiny);
+        const Real inv_s = Real(1) / (c + _eta.eta * t), inv_p = Real(1) / (_eta.eta * c + t);
+        const Real T = Real(2) * _eta.eta * (c * inv_s * (t * inv_s) + c * inv_p * (t * inv_p));
+        return detail::min(T, Real(1));
+    }
+
     Color at(Real mu) const { return Color(reflectance(mu)); }
     Color normal_incidence() const { return at(Real(1)); }
     /// F at the cosine of the falloff.

@@ -136,47 +136,51 @@ Vec3<Real> refraction_half_vector(const Vec3<Real>& wo, const Vec3<Real>& wi,
     return select(eta_o.minus_one > Real(0), -h, h);
 }
 
-/// The side of a direction is told by more than the horizon: see vector.h.
-template <class Real>
-MaskOf<Real> is_off_horizon(const Vec3<Real>& w)
-{
-    return both<Real>(quiet_less(constant<Real>(horizon), abs(w.z)), is_direction(w));
-}
-
 template <class Real>
 MaskOf<Real> same_sign(Real a, Real b)
 {
     return both<Real>(a > Real(0), b > Real(0)) | both<Real>(a < Real(0), b < Real(0));
 }
 
+/// A unit direction on either side of the surface. All of NaN, infinity, zero and the horizon give
+/// false.
+template <class Real>
+MaskOf<Real> is_off_horizon(const Vec3<Real>& w)
+{
+    return both<Real>(quiet_less(constant<Real>(horizon), abs(w.z)), is_direction(w));
+}
+
+/// Directions of cosines a and b are on the same side of the surface, off the horizon: vector.h.
+template <class Real>
+MaskOf<Real> same_side(Real a, Real b)
+{
+    const Real bound = constant<Real>(horizon);
+    return both<Real>(same_sign(a, b), both<Real>(bound < abs(a), bound < abs(b)));
+}
+
 }  // namespace detail
 
 /// Whether a facet m on wo's side may reflect wo into wi: all three on the same side of the
-/// surface, both directions on the side of the facet that m points to.
+/// surface, both directions on the side of the facet that m points to. m need not be unit; that wi
+/// is where m reflects wo to is for the caller to know.
 template <class Real>
 MaskOf<Real> is_reflection(const Vec3<Real>& wo, const Vec3<Real>& wi, const Vec3<Real>& m)
 {
     const MaskOf<Real> surface =
-        detail::both<Real>(detail::same_sign(wo.z, wi.z), detail::same_sign(wo.z, m.z));
-    const MaskOf<Real> facet =
-        detail::both<Real>(detail::dot(wo, m) > Real(0), detail::dot(wi, m) > Real(0));
+        detail::both<Real>(detail::same_side(wo.z, wi.z), detail::same_sign(wo.z, m.z));
     return detail::both<Real>(
-        detail::both<Real>(detail::is_off_horizon(wo), detail::is_off_horizon(wi)),
-        detail::both<Real>(surface, facet));
+        surface, detail::both<Real>(detail::dot(wo, m) > Real(0), detail::dot(wi, m) > Real(0)));
 }
 
 /// Whether a facet m on wo's side may refract wo into wi: on opposite sides of the surface and of
-/// the facet. m need not be unit. That wi is Snell's direction is for the caller to know.
+/// the facet. m as above.
 template <class Real>
 MaskOf<Real> is_transmission(const Vec3<Real>& wo, const Vec3<Real>& wi, const Vec3<Real>& m)
 {
     const MaskOf<Real> surface =
-        detail::both<Real>(detail::same_sign(wo.z, -wi.z), detail::same_sign(wo.z, m.z));
-    const MaskOf<Real> facet =
-        detail::both<Real>(detail::dot(wo, m) > Real(0), detail::dot(wi, m) < Real(0));
+        detail::both<Real>(detail::same_side(wo.z, -wi.z), detail::same_sign(wo.z, m.z));
     return detail::both<Real>(
-        detail::both<Real>(detail::is_off_horizon(wo), detail::is_off_horizon(wi)),
-        detail::both<Real>(surface, facet));
+        surface, detail::both<Real>(detail::dot(wo, m) > Real(0), detail::dot(wi, m) < Real(0)));
 }
 
 REGAIN_NAMESPACE_END

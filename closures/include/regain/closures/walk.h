@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+/// @file
+/// Reflection from a rough conductor with all its bounces: the random walk of Heitz, Hanika, d'Eon
+/// and Dachsbacher 2016 on the Smith microsurface, as a closure. It replaces the lobe; its first
+/// bounce is what MicrofacetReflection returns. How a walk moves is told in microsurface_walk.h.
+///
+/// A walk goes on until it has left the surface, so nothing is lost, no order is cut off, and
+///
+///   sample   weight = product of F over the bounces (times the closure's tint), unbiased, with no
+///            other noise than the colour's
+///   eval     an unbiased estimate of f |cos theta_i|: the first bounce exactly, and of
+///   `eval_samples`
+///            walks the later bounces, each joined with wi
+///   pdf      near the density of sample, not equal to it: the density of the first bounce,
+///   exactly,
+///            and a lobe for the rest
+///
+/// A host that combines sample and eval by multiple importance sampling stays unbiased as long as
+/// both sides weigh with pdf(): the weights add up to 1 whatever pdf is. The weight of a sample is
+/// what counts; it is not eval / pdf. A host that divides by the pdf itself takes weight * pdf for
+/// the value.
+///
+/// The lobe for the rest. Where the tables know E_ss (one alpha, no tail parameter):
+///   (1 - E_ss) ((1 - t) cos / pi + t 3 cos^2 / (2 pi)),  t = alpha mu_o
+/// within 0.02 to 0.17 (rms) of the density for GGX, and the pdf integrates to 1 as well as the
+/// table knows E_ss. Otherwise the share 1 - E_ss is not known, but the density n(d) of first
+/// bounces along d that do not leave is; carried from the sphere onto the hemisphere by halving the
+/// angle to -z it becomes
+///   4 cos theta_i n(2 cos theta_i (wi_x, wi_y, -wi_z) + z)
+/// which integrates to 1 exactly, for any distribution; it is within 0.05 to 0.7 of the density.
+
+#pragma once
+
+#include <regain/closures/method_gain.h>
+#include <regain/closures/microfacet_reflection.h>
+#include <regain/closures/microsurface_walk.h>
+
+REGAIN_NAMESPACE_BEGIN
+
+template <class DistributionType, class FresnelType>
+class Walk
+{
+public:
+    using Distribution = DistributionType;
+    using Fresnel = FresnelType;
+    using Real = typename Distribution::Real;
+    using Mask = MaskOf<Real>;
+    using Color = Color3<Real>;
+    static constexpr int random_numbers = 3;
+    static constexpr bool stochastic_eval = true;
+
+    /// eval_samples: walks that an eval takes, at least 1. `tables` sharpen the pdf and make
+    /// albedo() a look-up.
+    Walk(const Distribution& distribution, const Fresnel& fresnel, int eval_samples = 1,
+         const MicrofacetTables& tables = {})
+        : _distribution(distribution),
+          _fresnel(fresnel),
+          _tables(tables),
+          _eval_samples(eval_samples < 1 ? 1 : eval_samples)
+    {}
+
+    const Distribution& distribution() const { return _distribution; }
+    const Fresnel& fresnel() const { return _fresnel; }
+    int eval_samples() const { return _eval_samples; }
+
+    const MicrofacetTables& tables() const { return _tables; }
+    void set_tables(const MicrofacetTables& tables) { _tables = tables; }
+
+    Traits traits() const
+    {
+        Traits t;
+        t.reciprocal = true;
+        t.energy_preserving = true;
+        t.stochastic_eval = true;
+        t.delta = detail::any<Real>(_distribution.is_delta());
+        t.anisotropic = !isotropic();
+        t.random_numbers = random_numbers;
+        return t;
+    }
+
+    class Prepared
+    {
+    public:
+        Prepared(const Walk& closure, const Vec3<Real>& wo)
+            : _closure(closure),
+              _delta(closure._distribution.is_delta()),
+              _valid(detail::is_above_horizon(wo)),
+              _wo(detail::normalised(
+                  detail::select(_valid, wo, Vec3<Real>(Real(0), Real(0), Real(1))))),
+              _visible(closure._distribution.visible(_wo)),
+              _weight(detail::select(_valid, Real(1), Real(0))),
+              _knows_share(!Distribution::has_tail && closure._tables.E_ss && closure.isotropic())
+        {
+            if (!_knows_share) return;
+            const TableAxes<Real> axes(closure._distribution);
+            _rest = Real(1) - closure._tables.albedo(axes, _wo.z);
+            _narrowing = closure._distribution.alpha_x() * _wo.z;
+        }
+
+        const Vec3<Real>& wo() const { return _wo; }
+
+        /// Multiplies the closure weight: all that eval, sample and albedo return, and no direction
+        /// or pdf.
+        void scale_by(const Color& weight) { _weight *= weight; }
+
+        /// An unbiased estimate; u in [0, 1)^3.
+        Color eval(const Vec3<Real>& direction, const Vec3<Real>& u) const
+        {
+            const Distribution& distribution = _closure._distribution;
+            const Vec3<Real> wi = safe(direction);
+            const Real area_i = distribution.projected_area(-wi);
+            Color sum(Real(0));
+            const auto join = [&](const Vec3<Real>& v, const Real& area, const Color& throughput,
+                                  const Depth& depth) {
+                const detail::FacetReflection<Real> facet(distribution, v, wi);
+                sum += throughput * _closure._fresnel.at(facet.cosine) *
+                       (facet.quarter_D / area * depth.escape_probability(wi.z, area_i));
+            };
+            for (int i = 0; i < _closure._eval_samples; ++i)
+                trace<false>(detail::shifted_numbers(u, i), join);
+            sum *= Real(1) / Real(static_cast<ScalarOf<Real>>(_closure._eval_samples));
+            join(_wo, _visible.projected_area(), Color(Real(1)), start());
+            return detail::select(answers(direction), sum * _weight, Color(Real(0)));
+        }
+
+        /// u in [0, 1)^3. The weight is not eval / pdf: see above.
+        Sample<Real> sample(const Vec3<Real>& u) const
+        {
+            const WalkPath<Real> p = path(u);
+            Sample<Real> s;
+            s.valid = detail::both<Real>(_valid, p.escaped);
+            s.delta = detail::both<Real>(s.valid, _delta);
+            s.wi = detail::select(s.valid, p.wi, Vec3<Real>(Real(0), Real(0), Real(1)));
+            s.weight = detail::select(s.valid, p.weight, Color(Real(0)));
+            s.pdf =
+                detail::select(s.valid, detail::select(_delta, Real(1), density(s.wi)), Real(0));
+            return s;
+        }
+
+        Real pdf(const Vec3<Real>& wi) const
+        {
+            return detail::select(answers(wi), density(safe(wi)), Real(0));
+        }
+
+        /// With E_ss, E_avg and the moments' tables, what the compensation method `series` says:
+        /// exact for F = 1, within 0.05 otherwise. Without tables, the mean weight of 1024 walks.
+        Albedo<Real> albedo() const
+        {
+            const MicrofacetTables& t = _closure._tables;
+            if (!(t.E_ss && t.E_avg && t.falloff && t.dip)) return detail::mean_weight<Real>(*this);
+            const MicrofacetReflection<Distribution, Fresnel> lobe(_closure._distribution,
+                                                                   _closure._fresnel, t);
+            auto prepared = lobe.prepare(_wo);
+            prepared.scale_by(_weight * MethodGain<Real>(lobe, Method::series, t, Real(1)).at(_wo));
+            return prepared.albedo();
+        }
+
+        /// One walk, with what sample does not tell.
+        WalkPath<Real> path(const Vec3<Real>& u) const
+        {
+            return trace<true>(u, [](const auto&...) {});
+        }
+
+    private:
+        using Depth = detail::WalkDepth<Real>;
+        using Visible = decltype(std::declval<const Distribution&>().visible(Vec3<Real>()));
+
+        Mask answers(const Vec3<Real>& wi) const
+        {
+            return detail::both<Real>(_valid & !_delta, detail::is_above_horizon(wi));
+        }
+        static Vec3<Real> safe(const Vec3<Real>& wi)
+        {
+            return detail::select(detail::is_above_horizon(wi), wi,
+                                  Vec3<Real>(Real(0), Real(0), Real(1)));
+        }
+        Depth start() const { return Depth(_wo.z, _visible.projected_area()); }
+
+        // From wo to where the walk leaves; or, if it may not leave at the first bounce, with that
+        // taken off its weight. join(v, sigma(v), weight, depth) is called at each facet but the
+        // first, before it scatters; v points against the ray that arrives.
+        template <bool leaves_at_once, class Join>
+        WalkPath<Real> trace(const Vec3<Real>& u, const Join& join) const
+        {
+            const Distribution& distribution = _closure._distribution;
+            constexpr bool three = Distribution::random_numbers > 2;
+
+            const Vec3<Real> z(Real(0), Real(0), Real(1));
+            Vec3<Real> d = detail::select(_delta, z, _visible.sample(u));
+            Real cosine = detail::dot(_wo, d);
+            d = d * (Real(2) * cosine) - _wo;
+            Visible visible = distribution.visible(-d);
+            Real area = visible.projected_area();
+
+            WalkPath<Real> p;
+            p.weight = _weight * _closure._fresnel.at(clamped(cosine));
+            p.bounces = Real(1);
+            Mask active = detail::both<Real>(_valid, !_delta);
+            Depth depth = start();
+
+            // The number that the distribution leaves over decides about the first step, so that a
+            // path of one bounce draws none.
+            const Real spare = detail::saturate(u.z);
+            if constexpr (leaves_at_once && !three)
+            {
+                active = detail::both<Real>(active, !depth.leaves_at_once(d.z, area, spare));
+                if (!detail::any<Real>(active)) return finished(p, d, active);
+            }
+            RandomStream<Real> stream(u);
+            const Real first = stream.next();
+            Real step = three ? stream.next() : spare;
+            if constexpr (!leaves_at_once)
+            {
+                const Mask up = d.z > Real(0);
+                p.weight *= Real(1) - depth.escape_probability(detail::max(d.z, Real(0)), area);
+                depth.move(d.z, area, step, first, detail::both<Real>(active, !up));
+            }
+            else
+                active = detail::both<Real>(active, !depth.move(d.z, area, step, first, active));
+
+            for (int n = 1; n < walk_limit && detail::any<Real>(active); ++n)
+            {
+                join(-d, area, detail::select(active, p.weight, Color(Real(0))), depth);
+                const Real x = stream.next(), y = stream.next();
+                const Vec3<Real> m = visible.sample({x, y, three ? stream.next() : Real(0)});
+                step = stream.next();
+                cosine = -detail::dot(d, m);
+                d = detail::select(active, m * (Real(2) * cosine) + d, d);
+                p.weight = detail::select(active, p.weight * _closure._fresnel.at(clamped(cosine)),
+                                          p.weight);
+                p.bounces = detail::select(active, p.bounces + Real(1), p.bounces);
+                visible = distribution.visible(-d);
+                area = visible.projected_area();
+                active = detail::both<Real>(active, !depth.move(d.z, area, step, first, active));
+            }
+            return finished(p, d, active);
+        }
+
+        static Real clamped(const Real& cosine)
+        {
+            return detail::min(detail::max(cosine, Real(0)), Real(1));
+        }
+        static WalkPath<Real> finished(WalkPath<Real> p, const Vec3<Real>& d, const Mask& active)
+        {
+            p.wi = detail::normalised(d);  // what the bounces have rounded off
+            p.escaped = !active;
+            p.transmitted = Mask(false);
+            return p;
+        }
+
+        // Near the density of sample, per steradian; wi.z > 0.
+        Real density(const Vec3<Real>& wi) const
+        {
+            const Distribution& distribution = _closure._distribution;
+            const Real area = _visible.projected_area();
+            // Of what is headed along d the share out / (out + stay) leaves.
+            const Real out = area * wi.z, stay = distribution.projected_area(-wi) * _wo.z;
+            const detail::FacetReflection<Real> facet(distribution, _wo, wi);
+            const Real single = facet.quarter_D * wi.z / (out + stay);
+            if (_knows_share)
+            {
+                const Real lobe = Real(1) + _narrowing * (Real(1.5f) * wi.z - Real(1));
+                return single +
+                       _rest * wi.z * detail::constant<Real>(0.318309886183790671538) * lobe;
+            }
+            const Real slope = Real(2) * wi.z;
+            const Vec3<Real> d(slope * wi.x, slope * wi.y, Real(1) - slope * wi.z);
+            const detail::FacetReflection<Real> lost(distribution, _wo, d);
+            const Real lost_out = area * detail::max(d.z, Real(0)),
+                       lost_stay = distribution.projected_area(-d) * _wo.z;
+            return single +
+                   Real(4) * wi.z * lost.quarter_D * lost_stay / (area * (lost_out + lost_stay));
+        }
+
+        Walk _closure;
+        Mask _delta, _valid;
+        Vec3<Real> _wo;
+        Visible _visible;
+        Color _weight;
+        bool _knows_share;
+        Real _rest = Real(0), _narrowing = Real(0);
+    };
+
+    Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
+
+    Color eval(const Vec3<Real>& wo, const Vec3<Real>& wi, const Vec3<Real>& u) const
+    {
+        return prepare(wo).eval(wi, u);
+    }
+    Sample<Real> sample(const Vec3<Real>& wo, const Vec3<Real>& u) const
+    {
+        return prepare(wo).sample(u);
+    }
+    Real pdf(const Vec3<Real>& wo, const Vec3<Real>& wi) const { return prepare(wo).pdf(wi); }
+    Albedo<Real> albedo(const Vec3<Real>& wo) const { return prepare(wo).albedo(); }
+
+private:
+    bool isotropic() const
+    {
+        return detail::all<Real>(_distribution.alpha_x() == _distribution.alpha_y());
+    }
+
+    Distribution _distribution;
+    Fresnel _fresnel;
+    MicrofacetTables _tables;
+    int _eval_samples;
+};
+
+REGAIN_NAMESPACE_END

@@ -19,6 +19,7 @@
 ///     eta()             where it is an interface between two media: index on the -z side over
 ///                       index on the +z side
 ///     lobe()            a closure inside it, which is asked in its place
+///     first(), second() the closures it is the sum of
 ///
 /// and where it has none of these, the answer is the one of a surface without them.
 
@@ -55,6 +56,15 @@ struct HasLobe<Closure, std::void_t<decltype(std::declval<const Closure&>().lobe
     : std::true_type
 {};
 
+template <class Closure, class = void>
+struct IsSum : std::false_type
+{};
+template <class Closure>
+struct IsSum<Closure, std::void_t<decltype(std::declval<const Closure&>().first()),
+                                  decltype(std::declval<const Closure&>().second())>>
+    : std::true_type
+{};
+
 template <class Material, class Real, class Visit, class = void>
 struct ChoosesClosure : std::false_type
 {};
@@ -85,6 +95,8 @@ typename Closure::Real relative_index(const Closure& closure)
         return closure.eta();
     else if constexpr (detail::HasLobe<Closure>::value)
         return relative_index(closure.lobe());
+    else if constexpr (detail::IsSum<Closure>::value)
+        return relative_index(closure.first());
     else
         return typename Closure::Real(1);
 }
@@ -116,6 +128,8 @@ typename Closure::Real widest_alpha(const Closure& closure)
         return detail::max(closure.distribution().alpha_x(), closure.distribution().alpha_y());
     else if constexpr (detail::HasLobe<Closure>::value)
         return widest_alpha(closure.lobe());
+    else if constexpr (detail::IsSum<Closure>::value)
+        return detail::max(widest_alpha(closure.first()), widest_alpha(closure.second()));
     else
         return typename Closure::Real(1);
 }
@@ -129,8 +143,10 @@ bool is_delta(const Closure& closure)
         return closure.traits().delta && closure.distribution().is_delta();
     else if constexpr (detail::HasLobe<Closure>::value)
         return is_delta(closure.lobe());
+    else if constexpr (detail::IsSum<Closure>::value)
+        return is_delta(closure.first()) && is_delta(closure.second());
     else
-        return closure.traits().delta;
+        return false;
 }
 
 /// The closure for a path that carries importance: what eval and sample say is then what the eye

@@ -28,36 +28,36 @@
 
 #include <regain/closures/ggx.h>
 #include <regain/closures/gtr_mixture.h>
+#include <regain/closures/tail.h>
 
 REGAIN_NAMESPACE_BEGIN
 
 template <class RealType>
-class GTR
+class GTR : public detail::MicrofacetWidths<GTR<RealType>, RealType>
 {
+    using Widths = detail::MicrofacetWidths<GTR<RealType>, RealType>;
+
 public:
     using Real = RealType;
     using Mask = MaskOf<Real>;
 
     static constexpr int random_numbers = 3;
     static constexpr bool has_tail = true;
-    static constexpr double delta_alpha = GGX<Real>::delta_alpha;
-    static constexpr double min_gamma = 1e-3, max_gamma = 10;
 
     /// Widths along x and y in [0, 1]; outside they are clamped, NaN becomes 1. One axis narrower
-    /// than delta_alpha is widened to it unless both are. gamma in [1e-3, 10]; outside it is
-    /// clamped, NaN becomes 2.
+    /// than delta_alpha is widened to it unless both are. gamma in [gtr_min_gamma, gtr_max_gamma];
+    /// outside it is clamped, NaN becomes 2.
     explicit GTR(Real alpha_x, Real alpha_y, Real gamma)
-        : _widths(alpha_x, alpha_y),
-          _gamma(detail::sanitised(gamma, min_gamma, max_gamma, 2)),
-          _beta(_widths.alpha_x() * _widths.alpha_y()),
-          _log_beta(detail::log(_widths.alpha_x()) + detail::log(_widths.alpha_y())),
+        : Widths(alpha_x, alpha_y),
+          _gamma(detail::sanitised(gamma, gtr_min_gamma, gtr_max_gamma, 2)),
+          _beta(_alpha_x * _alpha_y),
+          _inv_beta(Real(1) / _beta),
+          _log_beta(detail::log(_alpha_x) + detail::log(_alpha_y)),
           _mixture(_beta, _log_beta, _gamma)
     {
         const Real alpha = detail::sqrt(_beta);
-        _stretch_x = _widths.alpha_x() / alpha;
-        _stretch_y = _widths.alpha_y() / alpha;
-        _inv_stretch_x = alpha / _widths.alpha_x();
-        _inv_stretch_y = alpha / _widths.alpha_y();
+        _stretch_x = _alpha_x / alpha;
+        _stretch_y = _alpha_y / alpha;
         // D at m = (0, 0, 1). With l = ln beta and phi(x) = x / (e^x - 1), which is 1 at 0, it is
         // phi((gamma-1) l) / (phi(l) pi beta): nothing is divided by 0 at gamma = 1 or alpha = 1.
         _peak = constant(0.318309886183790671538) * phi((_gamma - Real(1)) * _log_beta) /
@@ -65,22 +65,17 @@ public:
     }
     explicit GTR(Real alpha, Real gamma) : GTR(alpha, alpha, gamma) {}
 
-    Real alpha_x() const { return _widths.alpha_x(); }
-    Real alpha_y() const { return _widths.alpha_y(); }
+    /// Tail parameter, and its coordinate along the third axis of tables.
     Real gamma() const { return _gamma; }
-    Real tail() const { return _gamma * Real(0.1f); }
-    Mask is_delta() const { return _widths.is_delta(); }
-    Real effective_alpha() const { return _widths.effective_alpha(); }
+    Real tail() const { return gtr_tail(_gamma); }
 
     /// D of the normal m along h, which need not be unit: length2 = h.h. Per steradian. At least
     /// 1e-25, so that quotients of it stay finite.
     Real D(const Vec3<Real>& h, Real length2) const
     {
-        const Real x = h.x * _inv_stretch_x, y = h.y * _inv_stretch_y;
-        const Real a2 = x * x + y * y, z2 = h.z * h.z, isotropic = z2 + a2;
-        // (1 + rho) beta / (beta + rho), in [beta, 1].
-        const Real fall = isotropic / (z2 + a2 / _beta), r = length2 / isotropic;
-        return detail::max(_peak * detail::pow(fall, _gamma) * r * r, constant(1e-25));
+        const Real z2 = h.z * h.z, a2 = _beta * this->shrunk_tangential2(h);
+        const Real r = length2 / (z2 + a2);
+        return detail::max(isotropic_D(z2, a2) * r * r, constant(1e-25));
     }
     Real D(const Vec3<Real>& m) const { return D(m, Real(1)); }
 
@@ -93,21 +88,17 @@ public:
     /// Lambda(w) for w.z > 0.
     Real lambda(const Vec3<Real>& w) const { return area_below(stretched(w)) / w.z; }
 
-    Real G1(const Vec3<Real>& w) const { return w.z / projected_area(w); }
-    Real G2(const Vec3<Real>& wo, const Vec3<Real>& wi) const
-    {
-        return Real(1) / (Real(1) + lambda(wo) + lambda(wi));
-    }
-
     /// The visible normals of one wo.
     class Visible
     {
     public:
         Visible(const GTR& gtr, const Vec3<Real>& wo)
-            : _gtr(gtr), _v(gtr.stretched(wo)), _projected_area(gtr.projected_area(wo))
+            : _gtr(gtr),
+              _v(gtr.stretched(wo)),
+              _projected_area(detail::max(gtr.projected_area(wo), constant(1e-30)))
         {}
 
-        /// sigma(wo).
+        /// sigma(wo), at least 1e-30.
         Real projected_area() const { return _projected_area; }
 
         /// Factor that turns D(m) into the density of the reflected direction, per steradian.
@@ -196,14 +187,15 @@ private:
     {
         return _mixture.area_below(detail::abs(v.z), v.x * v.x + v.y * v.y);
     }
-    // D of a unit normal of the isotropic surface, by its squared components.
+    // D of the isotropic surface, along a normal whose square is z2 + a2, z2 being that of its z.
     Real isotropic_D(const Real& z2, const Real& a2) const
     {
-        return _peak * detail::pow((z2 + a2) / (z2 + a2 / _beta), _gamma);
+        // beta (1 + rho) / (beta + rho), in [beta, 1].
+        return _peak * detail::pow((z2 + a2) / (z2 + a2 * _inv_beta), _gamma);
     }
 
-    GGX<Real> _widths;
-    Real _gamma, _beta, _log_beta, _stretch_x, _stretch_y, _inv_stretch_x, _inv_stretch_y;
+    using Widths::_alpha_x, Widths::_alpha_y;
+    Real _gamma, _beta, _inv_beta, _log_beta, _stretch_x, _stretch_y;
     Real _peak;  // D at (0, 0, 1)
     detail::GtrMixture<Real> _mixture;
 };

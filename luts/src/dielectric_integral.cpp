@@ -59,8 +59,9 @@ public:
         // begins or ends. D peaks at theta_o with a width of alpha, so theta_o + alpha sinh(y) is
         // what runs evenly.
         const double half_pi = 0.5 * pi;
-        std::array<double, 7> ends{0,
+        std::array<double, 8> ends{0,
                                    half_pi,
+                                   _theta_o,
                                    half_pi - _theta_o,          // m at the horizon
                                    0.5 * (half_pi - _theta_o),  // wr at the horizon, either side
                                    0.5 * (half_pi + _theta_o),
@@ -68,7 +69,11 @@ public:
                                    grazing_angle()};  // wt at the horizon
         std::sort(ends.begin(), ends.end());
         const double alpha = _law.alpha();
-        const auto even = [&](double theta) { return std::asinh((theta - _theta_o) / alpha); };
+        const double reach = std::atan(_law.longest());  // D ends there
+        const double lowest = std::asinh(-reach / alpha), highest = -lowest;
+        const auto even = [&](double theta) {
+            return std::min(highest, std::max(lowest, std::asinh((theta - _theta_o) / alpha)));
+        };
         for (std::size_t e = 0; e + 1 < ends.size(); ++e)
         {
             const double from = even(ends[e]), range = even(ends[e + 1]) - from;

@@ -22,7 +22,7 @@
 
 #include <regain/closures/beckmann.h>
 #include <regain/closures/conductor_fresnel.h>
-#include <regain/closures/dielectric.h>
+#include <regain/closures/dielectric_walk.h>
 #include <regain/closures/ggx.h>
 #include <regain/closures/gtr.h>
 #include <regain/closures/kulla_conty.h>
@@ -193,6 +193,9 @@ private:
     template <class Lobe, class Real, class Visit>
     decltype(auto) with_interface(const Lobe& lobe, Real, const Visit& visit) const
     {
+        if (const auto* walk = std::get_if<RandomWalk>(&method))
+            return visit(DielectricWalk(lobe.distribution(), lobe.eta(), lobe.reflection_tint(),
+                                        lobe.transmission_tint(), walk->eval_samples));
         return visit(lobe);
     }
 

@@ -22,9 +22,11 @@
 ///   reflected up      1 / (1 + Lambda_d / (1 + Lambda_o))     exact
 ///   refracted up      1 / (1 + Lambda_d (1 + Lambda_o))       near the beta form's, and cheap
 ///   down              0
-/// The share n e is where it is; what is lost, n (1 - e), is carried from the sphere of directions
-/// onto the hemisphere as in walk.h, a constant share of it on the side that it was headed for and
-/// the rest on the other. So it integrates to 1, for any distribution and index.
+/// The share n e is where it is. What is lost, n (1 - e), goes to either side by shares that were
+/// fitted: reflected light, and refracted light that comes back, is carried from the sphere of
+/// directions onto the hemisphere as in walk.h; refracted light that stays refracted keeps its
+/// direction, mirrored where that points to the surface. So the pdf integrates to 1, for any
+/// distribution and index.
 ///
 /// Both lobes only: what a walk would be that may only reflect, or only refract, is not defined,
 /// and there is no parameter for it; scale a tint to 0 to see one side.
@@ -95,6 +97,8 @@ public:
               _visible(_distribution.visible(_wo)),
               _ahead(closure._lobe.relative_index(Vec3<Real>(Real(0), Real(0), _side))),
               _behind(closure._lobe.relative_index(Vec3<Real>(Real(0), Real(0), -_side))),
+              _T_to_T(transmitted_share(0.99)),
+              _R_to_T(transmitted_share(0.88)),
               _reflection(closure.reflection_tint() * detail::select(_valid, Real(1), Real(0))),
               _transmission(closure.transmission_tint() * detail::select(_valid, Real(1), Real(0)))
         {}
@@ -174,6 +178,12 @@ public:
     private:
         using Depth = detail::WalkDepth<Real>;
         using Visible = decltype(std::declval<const Distribution&>().visible(Vec3<Real>()));
+
+        Real transmitted_share(double entering) const
+        {
+            return detail::select(_ahead.minus_one < Real(0), _ahead.eta * _ahead.eta * _wo.z,
+                                  detail::constant<Real>(entering));
+        }
 
         Vec3<Real> turned(const Vec3<Real>& w) const { return {w.x, w.y, w.z * _side}; }
         static Vec3<Real> outward(const Vec3<Real>& w) { return {w.x, w.y, detail::abs(w.z)}; }
@@ -306,24 +316,31 @@ public:
         {
             const Mask beyond = wi.z < Real(0);
             const Vec3<Real> up = outward(wi);
+            const Real area_i = _distribution.projected_area(-up);
             const Real slope = Real(2) * up.z;
             const Vec3<Real> d(slope * up.x, slope * up.y, Real(1) - slope * up.z);
-            const Real area = _visible.projected_area();
+            const Real d_out = detail::max(d.z, Real(0)), area_d = _distribution.projected_area(-d);
 
-            const Real area_i = _distribution.projected_area(-up),
-                       area_d = _distribution.projected_area(-d);
-            const Real d_out = detail::max(d.z, Real(0));
-            const Real single = detail::select(
-                beyond, refracted(_wo, detail::mirrored(up), _ahead) * leaves_beyond(up.z, area_i),
-                reflected(_wo, up, _ahead) * leaves(up.z, area_i));
             const Real lost_R = reflected(_wo, d, _ahead) * (Real(1) - leaves(d_out, area_d));
-            const Real lost_T = refracted(_wo, detail::mirrored(d), _ahead) *
-                                (Real(1) - leaves_beyond(d_out, area_d));
-            const Real keeps_R = detail::constant<Real>(0.5), keeps_T = detail::constant<Real>(0.5);
-            const Real lost =
-                detail::select(beyond, lost_T * keeps_T + lost_R * (Real(1) - keeps_R),
-                               lost_R * keeps_R + lost_T * (Real(1) - keeps_T));
-            return (single + Real(4) * up.z * lost) / area;
+            const Real carried = Real(4) * up.z;
+            Real value(0);
+            if (!detail::all<Real>(beyond))
+            {
+                const Real lost_T = refracted(_wo, detail::mirrored(d), _ahead) *
+                                    (Real(1) - leaves_beyond(d_out, area_d));
+                value = reflected(_wo, up, _ahead) * leaves(up.z, area_i) +
+                        carried * (lost_R * (Real(1) - _R_to_T) + lost_T * (Real(1) - _T_to_T));
+            }
+            if (detail::any<Real>(beyond))
+            {
+                const Real out = leaves_beyond(up.z, area_i);
+                const Real through = refracted(_wo, detail::mirrored(up), _ahead) *
+                                         (out + (Real(1) - out) * _T_to_T) +
+                                     refracted(_wo, up, _ahead) * _T_to_T +
+                                     carried * lost_R * _R_to_T;
+                value = detail::select(beyond, through, value);
+            }
+            return value / _visible.projected_area();
         }
         Real leaves(const Real& z, const Real& area_i) const
         {
@@ -343,7 +360,11 @@ public:
         Vec3<Real> _wo;  // above
         Visible _visible;
         RelativeIndex<Real> _ahead, _behind;  // seen from wo, and from the other side
-        Color _reflection, _transmission;     // what multiplies the lobes
+        // What becomes of light that does not leave at once, by measurement: nearly all of it ends
+        // in the denser medium. Seen from there, eta_o^2 is the share of a diffuse flux that can
+        // leave, and little can that travels flat.
+        Real _T_to_T, _R_to_T;
+        Color _reflection, _transmission;  // what multiplies the lobes
     };
 
     Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }

@@ -20,7 +20,7 @@
 
 #pragma once
 
-#include <regain/closures/distribution.h>
+#include <regain/closures/microfacet_widths.h>
 
 REGAIN_NAMESPACE_BEGIN
 
@@ -32,8 +32,10 @@ enum class NormalSampling {
 };
 
 template <class RealType>
-class GGX
+class GGX : public detail::MicrofacetWidths<GGX<RealType>, RealType>
 {
+    using Widths = detail::MicrofacetWidths<GGX<RealType>, RealType>;
+
 public:
     using Real = RealType;
     using Mask = MaskOf<Real>;
@@ -41,39 +43,12 @@ public:
     static constexpr int random_numbers = 2;
     static constexpr bool has_tail = false;
 
-    /// At or below this alpha on both axes the lobe is a mirror. It is where D stops being
-    /// meaningful in the number type: half-vectors are known to a few ulps, D varies over alpha.
-    static constexpr double delta_alpha = sizeof(ScalarOf<Real>) == 4 ? 1e-5 : 1e-9;
-
     /// Widths along x and y in [0, 1]; outside they are clamped, NaN becomes 1. One axis narrower
     /// than delta_alpha is widened to it unless both are.
     explicit GGX(Real alpha_x, Real alpha_y, NormalSampling sampling = NormalSampling::bounded)
-        : _sampling(sampling)
-    {
-        const Real bound = detail::constant<Real>(delta_alpha);
-        const Real ax = detail::sanitised(alpha_x, 0, 1, 1),
-                   ay = detail::sanitised(alpha_y, 0, 1, 1);
-        _delta = detail::both<Real>(ax <= bound, ay <= bound);
-        _alpha_x = detail::max(ax, bound);
-        _alpha_y = detail::max(ay, bound);
-        _inv_alpha_x = Real(1) / _alpha_x;
-        _inv_alpha_y = Real(1) / _alpha_y;
-        _normalisation =
-            detail::constant<Real>(0.318309886183790671538) * _inv_alpha_x * _inv_alpha_y;
-    }
+        : Widths(alpha_x, alpha_y), _sampling(sampling)
+    {}
     explicit GGX(Real alpha) : GGX(alpha, alpha) {}
-
-    Real alpha_x() const { return _alpha_x; }
-    Real alpha_y() const { return _alpha_y; }
-    Mask is_delta() const { return _delta; }
-
-    /// One width in place of two, for what is tabulated over a single alpha: the root mean square,
-    /// which of the simple means leaves the least error.
-    Real effective_alpha() const
-    {
-        const Real mean = detail::sqrt(Real(0.5f) * (_alpha_x * _alpha_x + _alpha_y * _alpha_y));
-        return detail::select(_alpha_x == _alpha_y, _alpha_x, mean);
-    }
 
     /// D of the normal m along h, which need not be unit: length2 = h.h. Per steradian.
     Real D(const Vec3<Real>& h, Real length2) const
@@ -97,12 +72,6 @@ public:
         // (t / z - 1) / 2 loses all digits at small slopes; its conjugate does not.
         const Real x = _alpha_x * w.x, y = _alpha_y * w.y;
         return Real(0.5f) * (x * x + y * y) / (w.z * (w.z + stretched_length(w)));
-    }
-
-    Real G1(const Vec3<Real>& w) const { return w.z / projected_area(w); }
-    Real G2(const Vec3<Real>& wo, const Vec3<Real>& wi) const
-    {
-        return Real(1) / (Real(1) + lambda(wo) + lambda(wi));
     }
 
     /// The visible normals of one wo, or those of them that matter to a reflection lobe.
@@ -177,9 +146,8 @@ private:
         return detail::sqrt(x * x + y * y + w.z * w.z);
     }
 
-    Real _alpha_x, _alpha_y, _inv_alpha_x, _inv_alpha_y;
-    Real _normalisation;  // 1 / (pi ax ay)
-    Mask _delta;
+    using Widths::_alpha_x, Widths::_alpha_y, Widths::_inv_alpha_x, Widths::_inv_alpha_y,
+        Widths::_normalisation;
     NormalSampling _sampling;
 };
 

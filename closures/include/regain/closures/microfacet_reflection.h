@@ -18,6 +18,7 @@
 
 #include <regain/closures/closure.h>
 #include <regain/closures/fresnel_moments.h>
+#include <regain/closures/refraction.h>
 #include <regain/closures/table.h>
 
 #include <utility>
@@ -141,7 +142,7 @@ public:
             const Vec3<Real> wi =
                 detail::select(t.valid, direction, Vec3<Real>(Real(0), Real(0), Real(1)));
 
-            const Vec3<Real> h = half_vector(_wo, wi);
+            const Vec3<Real> h = detail::half_vector(_wo, wi);
             const Real length2 = detail::dot(h, h);
             // wo.h of the unit half-vector is half the length of the sum.
             t.cos_facet = detail::min(Real(0.5f) * detail::sqrt(length2), Real(1));
@@ -152,21 +153,6 @@ public:
             t.value = D * Real(0.25f) * wi.z / (sigma_o * wi.z + sigma_i * _wo.z - _wo.z * wi.z);
             t.density = D * _visible.reflected_density();
             return t;
-        }
-
-        // wo + wi. Of two grazing directions the tangential parts all but cancel, and what is left
-        // of them in float is rounding. Their difference d does not cancel; and since both vectors
-        // are unit, (wo + wi).d = wi.z^2 - wo.z^2 is known to the last digit.
-        static Vec3<Real> half_vector(const Vec3<Real>& wo, const Vec3<Real>& wi)
-        {
-            const Vec3<Real> sum = wo + wi;
-            const Real dx = wo.x - wi.x, dy = wo.y - wi.y, d2 = dx * dx + dy * dy;
-            const MaskOf<Real> opposed = d2 > Real(1);
-            const Real scale = Real(1) / detail::select(opposed, d2, Real(1));
-            const Real along = (wi.z - wo.z) * sum.z * scale;
-            const Real across = Real(2) * (wo.x * wi.y - wo.y * wi.x) * scale;
-            return {detail::select(opposed, dx * along - dy * across, sum.x),
-                    detail::select(opposed, dy * along + dx * across, sum.y), sum.z};
         }
 
         Color tabulated_albedo() const

@@ -1,0 +1,373 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+/// @file
+/// `dielectric`: a rough interface between two dielectrics, of microfacets that each reflect and
+/// refract once. MaterialX's dielectric_bsdf, OSL's dielectric_bsdf.
+///
+///   reflected    F D G2 / (4 cos_o cos_i) * cos_i                      Walter et al. 2007, Eq. 20
+///   transmitted  (1 - F) D G2 |wo.m| |wi.m| eta_o^2 / (cos_o |h|^2),   Eq. 21 as energy
+///                h = wo + eta_o wi, m along h
+///
+/// with cosines of absolute value and eta_o the index ahead of wo over the one behind: eta for
+/// wo.z > 0, 1 / eta for wo.z < 0. Eq. 21 carries radiance; what is returned here carries energy
+/// (importance): f(wo, wi) = eta_o^2 f(wi, wo), and adapters multiply by the (n_o / n_i)^2 that
+/// radiance gains. All is sampled by visible normals, then by F of the facet, so that the weight is
+/// G2 / G1(wo).
+///
+/// Two forms of G2 exist for transmission. `correlated` is 1 / (1 + Lambda_o + Lambda_i), as for
+/// reflection. `beta`, B(1 + Lambda_o, 1 + Lambda_i), is what the Smith model means by passing in
+/// from one side and out to the other (Heitz et al. 2016, Eq. 37), and far lower at grazing angles.
+///
+/// Delta lobes. Of a flat surface (the distribution's delta limit) both lobes are. The transmitted
+/// directions spread over |eta - 1| alpha; at or below delta_width of that, light passes along the
+/// direction that the macroscopic surface refracts it to, while reflection stays rough. Its weight
+/// is then the G2 / G1(wo) of that direction, which the rough lobe tends to, so that neither the
+/// albedo nor its compensation jumps. At eta = 1 nothing is reflected.
+
+#pragma once
+
+#include <regain/closures/beta_function.h>
+#include <regain/closures/closure.h>
+#include <regain/closures/dielectric_fresnel.h>
+#include <regain/closures/dielectric_tables.h>
+#include <regain/closures/ggx.h>
+#include <regain/closures/random_stream.h>
+
+#include <type_traits>
+#include <utility>
+
+REGAIN_NAMESPACE_BEGIN
+
+/// Which of its two lobes a dielectric has: reflected, transmitted, both.
+enum class ScatterMode { R, T, RT };
+
+/// The masking and shadowing of transmitted light; see above.
+enum class TransmissionShadowing { correlated, beta };
+
+template <class DistributionType>
+class Dielectric
+{
+public:
+    using Distribution = DistributionType;
+    using Real = typename Distribution::Real;
+    using Mask = MaskOf<Real>;
+    using Color = Color3<Real>;
+    static constexpr int random_numbers = 3;
+
+    /// The bound of |eta - 1| alpha: directions are known to an ulp, and the half-vector of two
+    /// that oppose each other to an ulp over |eta - 1|, which has to be small beside alpha.
+    static constexpr double delta_width = sizeof(ScalarOf<Real>) == 4 ? 1e-5 : 1e-9;
+
+    /// eta: index on the -z side over index on the +z side, in [1e-2, 1e2], clamped, NaN becomes
+    /// 1.5. Tints in [0, 1] per channel, clamped, NaN becomes 0. The tables, of this distribution
+    /// and this form of shadowing, make albedo() a look-up; without them it integrates, which is
+    /// slower.
+    Dielectric(const Distribution& distribution, Real eta, ScatterMode mode = ScatterMode::RT,
+               const Color& reflection_tint = Color(Real(1)),
+               const Color& transmission_tint = Color(Real(1)),
+               TransmissionShadowing shadowing = TransmissionShadowing::correlated,
+               const DielectricTables& tables = {})
+        : _distribution(distribution),
+          _eta(RelativeIndex<Real>::of(eta)),
+          _reflection_tint(
+              detail::per_channel(reflection_tint, [](Real v) { return detail::saturate(v); })),
+          _transmission_tint(
+              detail::per_channel(transmission_tint, [](Real v) { return detail::saturate(v); })),
+          _mode(mode),
+          _shadowing(shadowing),
+          _tables(tables)
+    {}
+
+    const Distribution& distribution() const { return _distribution; }
+    Real eta() const { return _eta.eta; }
+    ScatterMode scatter_mode() const { return _mode; }
+    const Color& reflection_tint() const { return _reflection_tint; }
+    const Color& transmission_tint() const { return _transmission_tint; }
+    TransmissionShadowing transmission_shadowing() const { return _shadowing; }
+
+    const DielectricTables& tables() const { return _tables; }
+    void set_tables(const DielectricTables& tables) { _tables = tables; }
+
+    /// Index ahead of a direction over index behind it.
+    RelativeIndex<Real> relative_index(const Vec3<Real>& w) const
+    {
+        return detail::select(w.z < Real(0), _eta.inverse(), _eta);
+    }
+
+    /// Light passes in one direction.
+    Mask transmits_delta() const
+    {
+        const Real alpha = detail::max(_distribution.alpha_x(), _distribution.alpha_y());
+        const Real width = detail::abs(_eta.minus_one) / detail::max(_eta.eta, Real(1)) * alpha;
+        return _distribution.is_delta() | (width <= detail::constant<Real>(delta_width));
+    }
+
+    Traits traits() const
+    {
+        Traits t;
+        t.reciprocal = true;
+        t.exact_pdf = true;
+        t.transmissive = _mode != ScatterMode::R;
+        t.delta = detail::any<Real>(t.transmissive ? transmits_delta() : _distribution.is_delta());
+        t.anisotropic = !detail::all<Real>(_distribution.alpha_x() == _distribution.alpha_y());
+        t.random_numbers = random_numbers;
+        return t;
+    }
+
+    /// Works on the side of wo: what is seen from below is mirrored to above.
+    class Prepared
+    {
+    public:
+        Prepared(const Dielectric& lobe, const Vec3<Real>& wo)
+            : Prepared(lobe, detail::is_off_horizon(wo), wo)
+        {}
+
+        Vec3<Real> wo() const { return turned(_wo); }
+
+        /// Multiplies the closure weight: all that eval, sample and albedo return, and no direction
+        /// or pdf.
+        void scale_by(const Color& weight)
+        {
+            _reflection *= weight;
+            _transmission *= weight;
+        }
+
+        Color eval(const Vec3<Real>& wi) const
+        {
+            const Terms t = terms(wi);
+            return detail::select(t.valid, tint(t.reflected) * (t.weight * t.density),
+                                  Color(Real(0)));
+        }
+
+        /// u.x, u.y: the normal; u.z: reflection where it is below the facet's F.
+        Sample<Real> sample(const Vec3<Real>& u) const
+        {
+            const Vec3<Real> up(Real(0), Real(0), Real(1));
+            const Vec3<Real> m = detail::select(_flat, up, _visible.sample(normal_numbers(u)));
+            const Real cos_facet = detail::saturate(detail::dot(_wo, m));
+            const auto F = _fresnel.split(cos_facet);
+            const Mask reflect = chooses_reflection(F.reflectance, detail::saturate(u.z));
+
+            const Refraction<Real> refraction =
+                refract(_wo, detail::select(_narrow, up, m), _fresnel.relative_index());
+            const Vec3<Real> wi =
+                turned(detail::select(reflect, regain::reflect(_wo, m), refraction.wi));
+            const Terms t = terms(wi);
+
+            const Mask is_delta = detail::both<Real>(_narrow, _flat | !reflect);
+            const Mask on_its_side = reflect == t.reflected;
+            const Real share = detail::select(reflect, F.reflectance, F.transmittance);
+            const Real choice = both_lobes() ? share : Real(1);
+            const Real passed = both_lobes() ? Real(1) : share;
+            const Real delta_weight = passed * detail::select(_flat, Real(1), t.masking);
+
+            Sample<Real> s;
+            s.pdf = detail::select(is_delta, choice, t.density);
+            s.valid = detail::both<Real>(_valid & on_its_side & (s.pdf > Real(0)),
+                                         is_delta | (t.valid & (reflect | refraction.valid)));
+            s.delta = s.valid & is_delta;
+            s.transmitted = s.valid & !reflect;
+            s.pdf = detail::select(s.valid, s.pdf, Real(0));
+            s.wi = detail::select(s.valid, wi, up);
+            s.weight = detail::select(
+                s.valid, tint(reflect) * detail::select(is_delta, delta_weight, t.weight),
+                Color(Real(0)));
+            return s;
+        }
+
+        Real pdf(const Vec3<Real>& wi) const
+        {
+            const Terms t = terms(wi);
+            return detail::select(t.valid, t.density, Real(0));
+        }
+
+        Albedo<Real> albedo() const
+        {
+            if (!_lobe._tables) return detail::mean_weight<Real>(*this);
+
+            const Real alpha = _lobe._distribution.effective_alpha();
+            const Real eta = _fresnel.relative_index().eta, mu = detail::min(_wo.z, Real(1));
+            const auto F = _fresnel.split(mu);
+            const Real E = _lobe._tables.albedo(alpha, eta, mu);
+            const Real share = _lobe._tables.reflected_share(alpha, eta, mu);
+            const Color none(Real(0));
+            return {
+                reflects() ? _reflection * detail::select(_flat, F.reflectance, E * share) : none,
+                transmits()
+                    ? _transmission * detail::select(_flat, F.transmittance, E * (Real(1) - share))
+                    : none};
+        }
+
+    private:
+        using Visible = decltype(std::declval<const Distribution&>().visible(Vec3<Real>()));
+
+        Prepared(const Dielectric& lobe, const Mask& valid, const Vec3<Real>& wo)
+            : _lobe(lobe),
+              _valid(valid),
+              _flat(lobe._distribution.is_delta()),
+              _narrow(lobe.transmits_delta()),
+              _side(detail::select(detail::both<Real>(valid, detail::quiet_less(wo.z, Real(0))),
+                                   Real(-1), Real(1))),
+              _wo(detail::normalised(
+                  detail::select(valid, turned(wo), Vec3<Real>(Real(0), Real(0), Real(1))))),
+              _fresnel(lobe.relative_index(Vec3<Real>(Real(0), Real(0), _side))),
+              _visible(normals(lobe, _wo)),
+              _sigma_o(_visible.projected_area()),
+              _reflection(lobe._reflection_tint * detail::select(valid, Real(1), Real(0))),
+              _transmission(lobe._transmission_tint * detail::select(valid, Real(1), Real(0)))
+        {
+            _reflected_density = Real(0.25f) / _sigma_o;
+            if constexpr (may_leave_out_normals)
+                if (!transmits()) _reflected_density = _visible.reflected_density();
+            if (_lobe._shadowing == TransmissionShadowing::beta && transmits())
+                _lambda_o = _lobe._distribution.lambda(_wo);
+        }
+
+        // A lobe that only reflects may leave out the normals that reflect below the horizon.
+        static constexpr bool may_leave_out_normals =
+            std::is_same_v<Visible,
+                           decltype(std::declval<const Distribution&>().reflecting(Vec3<Real>()))>;
+        static Visible normals(const Dielectric& lobe, const Vec3<Real>& wo)
+        {
+            if constexpr (may_leave_out_normals)
+                if (lobe._mode == ScatterMode::R) return lobe._distribution.reflecting(wo);
+            return lobe._distribution.visible(wo);
+        }
+
+        // The third number of the normal has to be independent of the choice of the lobe.
+        static Vec3<Real> normal_numbers(const Vec3<Real>& u)
+        {
+            if constexpr (Distribution::random_numbers > 2)
+                return {u.x, u.y, RandomStream<Real>(u).next()};
+            else
+                return u;
+        }
+
+        bool reflects() const { return _lobe._mode != ScatterMode::T; }
+        bool transmits() const { return _lobe._mode != ScatterMode::R; }
+        bool both_lobes() const { return _lobe._mode == ScatterMode::RT; }
+
+        Mask chooses_reflection(const Real& F, const Real& u) const
+        {
+            if (!both_lobes()) return Mask(reflects());
+            return (u < F) | (F >= Real(1));
+        }
+
+        Vec3<Real> turned(const Vec3<Real>& w) const { return {w.x, w.y, w.z * _side}; }
+
+        Color tint(const Mask& reflected) const
+        {
+            return detail::select(reflected, _reflection, _transmission);
+        }
+
+        // All that eval, sample and pdf have in common, so that weight = eval / pdf by
+        // construction.
+        struct Terms
+        {
+            Mask reflected;  // or else transmitted
+            Mask valid;    // the one predicate: sample returns such wi, eval and pdf know no others
+            Real weight;   // f cos theta_i / density
+            Real density;  // per steradian
+            Real masking;  // G2 / G1(wo)
+        };
+
+        Terms terms(const Vec3<Real>& direction) const
+        {
+            const Distribution& distribution = _lobe._distribution;
+            const Vec3<Real> up(Real(0), Real(0), Real(1));
+
+            Terms t;
+            const Mask possible = detail::both<Real>(_valid, detail::is_off_horizon(direction));
+            const Vec3<Real> wi = detail::select(possible, turned(direction), up);
+            t.reflected = wi.z > Real(0);
+
+            // The facet. Where wi is wo's continuation, it is any.
+            Vec3<Real> h = half_vector(wi, t.reflected);
+            Real length2 = detail::dot(h, h);
+            const Mask known = length2 > detail::constant<Real>(1e-20);
+            h = detail::select(known, h, up);
+            length2 = detail::select(known, length2, Real(1));
+            t.valid = detail::both<Real>(
+                possible & known, (Mask(reflects()) & !_flat & is_reflection(_wo, wi, h)) |
+                                      (Mask(transmits()) & !_narrow & is_transmission(_wo, wi, h)));
+
+            // Cosines about the facet; of the unit half-vector wo.h is half the length of the sum.
+            const Real length = detail::sqrt(length2), inv = Real(1) / length;
+            const Real cos_o = detail::select(t.reflected, Real(0.5f) * length,
+                                              detail::abs(detail::dot(_wo, h)) * inv);
+            const Real cos_i = detail::abs(detail::dot(wi, h)) * inv;
+            const Real c = detail::min(cos_o, Real(1));
+
+            const Vec3<Real> wi_up(wi.x, wi.y, detail::abs(wi.z));
+            const Real sigma_i = distribution.projected_area(wi_up);
+            // G2 / cos theta_o of the correlated form, finite at grazing angles.
+            const Real shadowing =
+                wi_up.z / (_sigma_o * wi_up.z + sigma_i * _wo.z - _wo.z * wi_up.z);
+
+            const Real D = distribution.D(h, length2);
+            const Real fresnel =
+                detail::all<Real>(t.reflected)
+                    ? _fresnel.reflectance(c)
+                    : detail::select(t.reflected, _fresnel.reflectance(c),
+                                     _fresnel.transmittance(c, detail::min(cos_i, Real(1))));
+            const Real eta = _fresnel.relative_index().eta;
+            const Real refracted_density = (c / _sigma_o) * (eta * eta * cos_i / length2);
+
+            t.masking = detail::select(t.reflected, shadowing * _sigma_o,
+                                       transmission_masking(wi_up, shadowing));
+            t.weight = detail::select(t.reflected, Real(0.25f) * shadowing / _reflected_density,
+                                      t.masking);
+            t.density = D * detail::select(t.reflected, _reflected_density, refracted_density);
+            if (both_lobes())
+                t.density *= fresnel;
+            else
+                t.weight *= fresnel;
+            return t;
+        }
+
+        Vec3<Real> half_vector(const Vec3<Real>& wi, const Mask& reflected) const
+        {
+            if (detail::all<Real>(reflected)) return detail::half_vector(_wo, wi);
+            const Vec3<Real> h = detail::refraction_half_vector(_wo, wi, _fresnel.relative_index());
+            if (!detail::any<Real>(reflected)) return h;
+            return detail::select(reflected, detail::half_vector(_wo, wi), h);
+        }
+
+        Real transmission_masking(const Vec3<Real>& wi_up, const Real& shadowing) const
+        {
+            if (_lobe._shadowing == TransmissionShadowing::correlated || !transmits())
+                return shadowing * _sigma_o;
+            return beta_quotient(_lambda_o, _lobe._distribution.lambda(wi_up));
+        }
+
+        Dielectric _lobe;
+        Mask _valid, _flat, _narrow;
+        Real _side;      // 1 above, -1 below
+        Vec3<Real> _wo;  // above
+        DielectricFresnel<Real> _fresnel;
+        Visible _visible;
+        Real _sigma_o, _reflected_density, _lambda_o = Real(0);
+        Color _reflection, _transmission;  // what multiplies the lobes
+    };
+
+    Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
+
+    Color eval(const Vec3<Real>& wo, const Vec3<Real>& wi) const { return prepare(wo).eval(wi); }
+    Sample<Real> sample(const Vec3<Real>& wo, const Vec3<Real>& u) const
+    {
+        return prepare(wo).sample(u);
+    }
+    Real pdf(const Vec3<Real>& wo, const Vec3<Real>& wi) const { return prepare(wo).pdf(wi); }
+    Albedo<Real> albedo(const Vec3<Real>& wo) const { return prepare(wo).albedo(); }
+
+private:
+    Distribution _distribution;
+    RelativeIndex<Real> _eta;
+    Color _reflection_tint, _transmission_tint;
+    ScatterMode _mode;
+    TransmissionShadowing _shadowing;
+    DielectricTables _tables;
+};
+
+REGAIN_NAMESPACE_END

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+/// @file
+/// Albedo tables of rough dielectrics: what single scattering reflects and transmits in all,
+/// E^S = E^R + E^T (Turquin 2019, Eq. 17, 18), and the share of it that is reflected, with exact
+/// Fresnel inside, over three axes and for either side of the interface.
+///
+/// eta_o is the index ahead over the index behind, seen from wo: where wo is on the side of the
+/// normal it is the interface's eta, on the other side 1 / eta. Side 0 is eta_o >= 1, side 1 is
+/// eta_o < 1, where beyond the critical cosine kappa = sqrt(1 - eta_o^2) everything is reflected.
+///
+/// Axes, each with nodes at both ends:
+///     x   of the cosine. With s(t, a) = sqrt(t / (t + a (1 - t))), which gathers nodes within a of
+///         t = 0,
+///           side 0   s(mu, alpha), as for conductors
+///           side 1   kappa lies at the fixed coordinate c = 12/31, a node of 32, and
+///             mu < kappa    c (1 + s(t, a) - s(1 - t, a)) / 2,  t = mu / kappa, a = alpha / kappa
+///             mu >= kappa   c + (1 - c) s(t, a),  t = (mu - kappa) / (1 - kappa),
+///                           a = alpha / (1 - kappa);   a is limited to 1
+///     y   sqrt(alpha)
+///     z   sqrt(|eta - 1| / (eta + 1) / (3/5)): 0 at eta 1, 1 at eta 4 and 1/4; beyond, the end
+///         serves. Near 1 it is proportional to the cosine at which Fresnel reflection sets in.
+
+#pragma once
+
+#include <regain/closures/table.h>
+
+REGAIN_NAMESPACE_BEGIN
+
+namespace detail {
+
+/// Where the critical cosine lies on the axis of side 1.
+constexpr double critical_coordinate = 12.0 / 31.0;
+
+/// z above, of eta > 0.
+template <class Real>
+Real index_coordinate(Real eta)
+{
+    return sqrt(
+        min(abs(eta - Real(1)) / (eta + Real(1)) * constant<Real>(5.0 / 3.0), constant<Real>(1)));
+}
+
+/// x of side 1 above: mu in [0, 1], alpha in (0, 1], eta in (0, 1).
+template <class Real>
+Real critical_cosine_coordinate(Real mu, Real alpha, Real eta)
+{
+    const Real one(1), tiny = constant<Real>(1e-6);
+    const Real kappa = sqrt(max((one - eta) * (one + eta), constant<Real>(1e-12)));
+    const Real below = min(mu / kappa, one), a = min(alpha / kappa, one);
+    const Real left =
+        Real(0.5f) * (one + stretched_cosine(below, a) - stretched_cosine(one - below, a));
+
+    const Real room = max(one - kappa, tiny);
+    const Real above = saturate((mu - kappa) / room);
+    const Real right = stretched_cosine(above, min(alpha / room, one));
+
+    const Real c = constant<Real>(critical_coordinate);
+    return select(mu < kappa, c * left, c + (one - c) * right);
+}
+
+}  // namespace detail
+
+/// The tables of one distribution and one form of transmission shadowing. Without them the default
+/// is empty, and nothing may be looked up.
+struct DielectricTables
+{
+    TableView E[2];  ///< E^S over (x, y, z), by side
+    TableView R[2];  ///< E^R / E^S over (x, y, z), by side
+
+    explicit operator bool() const { return E[0] && E[1] && R[0] && R[1]; }
+
+    /// E^S at the cosine mu = |wo.z| in [0, 1], at most 1. alpha in (0, 1], eta_o > 0.
+    template <class Real>
+    Real albedo(Real alpha, Real eta_o, Real mu) const
+    {
+        return detail::min(look_up(E, alpha, eta_o, mu), Real(1));
+    }
+
+    /// E^R / E^S, in [0, 1]; arguments as above.
+    template <class Real>
+    Real reflected_share(Real alpha, Real eta_o, Real mu) const
+    {
+        return detail::saturate(look_up(R, alpha, eta_o, mu));
+    }
+
+private:
+    template <class Real>
+    static Real look_up(const TableView (&table)[2], Real alpha, Real eta, Real mu)
+    {
+        const Real y = detail::sqrt(alpha), z = detail::index_coordinate(eta);
+        const MaskOf<Real> dense_ahead = eta >= Real(1);
+        Real outside(1), inside(1);
+        if (detail::any<Real>(dense_ahead))
+            outside = table[0].at(stretched_cosine(mu, alpha), y, z);
+        if (!detail::all<Real>(dense_ahead))
+        {
+            const Real below_1 = detail::select(dense_ahead, Real(0.5f), eta);
+            inside = table[1].at(detail::critical_cosine_coordinate(mu, alpha, below_1), y, z);
+        }
+        return detail::select(dense_ahead, outside, inside);
+    }
+};
+
+REGAIN_NAMESPACE_END

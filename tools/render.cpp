@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright Contributors to the Regain project
 
-// `regain render`: a row of metal widgets of rising roughness for each compensation method, as in
-// Figure 1 of Turquin 2019.
+// `regain render`: a row of objects of rising roughness for each compensation method; by default
+// gold widgets, as in Figure 1 of Turquin 2019.
 
 #include "commands.h"
 #include "errors.h"
@@ -39,13 +39,23 @@ namespace {
 namespace fs = std::filesystem;
 using namespace preview;
 using Imath::C3f;
+using shaders::Compensation;
+using shaders::MicrofacetMaterial;
+
+// A light of 1 from everywhere, in which what keeps all energy cannot be seen.
+constexpr const char* kWhite = "white";
 
 /// What the user asked for, as given.
 struct Options
 {
     std::string output = "regain.exr";
     std::string method;
+    std::string material = "metal";
     std::string metal = "gold";
+    double ior = 1.5;
+    std::string distribution = "ggx";
+    double gamma = 2;
+    std::string object = "widget";
     std::vector<double> alphas = {0.05, 0.2, 0.4, 0.6, 0.8, 1.0};
     std::string host = "renderman";
     std::string environment;
@@ -53,6 +63,7 @@ struct Options
     std::int64_t seed = 1;
     std::string size;
     std::int64_t threads = 0;
+    std::int64_t bounces = 0;
     std::string display, view;
     bool quiet = false, json = false;
 };
@@ -61,12 +72,14 @@ struct Options
 struct Plan
 {
     fs::path exr, png;
-    std::vector<Method> methods;  // one row each, top first
+    std::vector<Compensation> methods;  // one row each, top first
     std::vector<float> alphas;
     Host host;
     int width, height;
     shaders::ColorConfig config;
-    shaders::MetalColor metal;
+    MicrofacetMaterial material;  // but for alpha and method
+    RowLayout layout;
+    int bounces;
     LatLongImage light;
 };
 
@@ -82,13 +95,30 @@ void check_range(const char* option, std::int64_t value, std::int64_t least, std
         refuse(option, std::to_string(value), fmt::format("takes {} to {}", least, most));
 }
 
-std::vector<Method> methods_of(const std::string& wanted)
+std::vector<Compensation> methods_of(const std::string& wanted)
 {
     if (wanted.empty()) return {Method::none, Method::turquin};
-    if (const auto method = method_named(wanted)) return {*method};
-    std::vector<std::string_view> names;
-    for (const Method m : all_methods) names.push_back(name(m));
-    refuse("--method", wanted, fmt::format("no such method; there are {}", fmt::join(names, ", ")));
+    if (const auto method = shaders::compensation_named(wanted)) return {*method};
+    refuse("--method", wanted,
+           fmt::format("no such method; there are {}",
+                       fmt::join(shaders::compensation_names(), ", ")));
+}
+
+shaders::DistributionKind distribution_of(const Options& options)
+{
+    const auto distribution = shaders::distribution_named(options.distribution);
+    if (!distribution)
+        refuse("--distribution", options.distribution,
+               "no such distribution; there are ggx, beckmann, gtr, std");
+    if (*distribution == shaders::DistributionKind::gtr &&
+        !(options.gamma > 0.0 && options.gamma <= gtr_max_gamma))
+        refuse("--gamma", fmt::format("{}", options.gamma),
+               fmt::format("gtr takes numbers above 0 up to {}", gtr_max_gamma));
+    if (*distribution == shaders::DistributionKind::std &&
+        !(options.gamma >= std_min_gamma && options.gamma <= std_max_gamma))
+        refuse("--gamma", fmt::format("{}", options.gamma),
+               fmt::format("std takes numbers from {} to {}", std_min_gamma, std_max_gamma));
+    return *distribution;
 }
 
 void parse_size(const std::string& text, int* width, int* height)
@@ -137,11 +167,58 @@ shaders::MetalColor metal_of(const std::string& name, const shaders::ColorConfig
     }
 }
 
+MicrofacetMaterial material_of(const Options& options, const shaders::ColorConfig& config)
+{
+    MicrofacetMaterial material;
+    material.distribution = distribution_of(options);
+    material.gamma = options.gamma;
+    if (options.material == "glass")
+    {
+        if (!(options.ior >= 0.1 && options.ior <= 10.0))
+            refuse("--ior", fmt::format("{}", options.ior), "takes numbers from 0.1 to 10");
+        shaders::InterfaceSurface glass;
+        glass.eta = options.ior;
+        material.surface = glass;
+        return material;
+    }
+    if (options.material != "metal")
+        refuse("--material", options.material, "no such material; there are metal and glass");
+
+    const shaders::MetalColor metal = metal_of(options.metal, config);
+    if (metal.out_of_gamut)
+        fmt::print(stderr,
+                   "regain: {} reflects a colour outside the working space {}; it was limited to "
+                   "[0, 1]\n",
+                   options.metal, config.scene_linear());
+    material.surface =
+        shaders::SchlickSurface{shaders::ColorD(C3f(metal.F0)), shaders::ColorD(C3f(metal.F82))};
+    return material;
+}
+
+/// What is wrong with the combination is found here.
+void check_materials(const Plan& plan)
+{
+    for (const Compensation& method : plan.methods)
+    {
+        MicrofacetMaterial material = plan.material;
+        material.method = method;
+        try
+        {
+            material.bind_tables();
+        }
+        catch (const std::invalid_argument& e)
+        {
+            refuse("--method", std::string(shaders::name(method)), e.what());
+        }
+    }
+}
+
 Plan make_plan(const Options& options)
 {
     check_range("--spp", options.samples, 1, 65536);
     check_range("--seed", options.seed, 0, 4294967295);
     check_range("--threads", options.threads, 0, 1024);
+    check_range("--bounces", options.bounces, 0, 4096);
     if (options.alphas.empty() || options.alphas.size() > 16)
         refuse("--alpha", fmt::format("with {} values", options.alphas.size()), "takes 1 to 16");
     for (const double alpha : options.alphas)
@@ -150,12 +227,7 @@ Plan make_plan(const Options& options)
 
     auto config = shaders::ColorConfig::active();
     check_view(options, config);
-    auto metal = metal_of(options.metal, config);
-    if (metal.out_of_gamut)
-        fmt::print(stderr,
-                   "regain: {} reflects a colour outside the working space {}; it was limited to "
-                   "[0, 1]\n",
-                   options.metal, config.scene_linear());
+    auto material = material_of(options, config);
 
     Plan plan{options.output,
               fs::path(options.output).replace_extension(".png"),
@@ -165,13 +237,29 @@ Plan make_plan(const Options& options)
               1440,
               0,
               std::move(config),
-              std::move(metal),
+              std::move(material),
+              {},
+              0,
               {}};
+    const bool white = options.environment == kWhite;
+    plan.layout.objects = static_cast<int>(plan.alphas.size());
+    plan.layout.object = object_named(options.object);
+    plan.layout.transparent = plan.material.is_interface();
+    plan.layout.floor = !white;
+    // Light takes its time to find out of glass.
+    const int bounces = plan.layout.transparent ? 64 : 16;
+    plan.bounces = options.bounces ? static_cast<int>(options.bounces) : bounces;
+
     plan.height = 300 * static_cast<int>(plan.methods.size());
     if (!options.size.empty()) parse_size(options.size, &plan.width, &plan.height);
     check_outputs(plan);
+    check_materials(plan);
 
-    plan.light = options.environment.empty() ? make_studio() : read_latlong(options.environment);
+    if (white)
+        plan.light = {2, 1, {C3f(1.0f), C3f(1.0f)}};
+    else
+        plan.light =
+            options.environment.empty() ? make_studio() : read_latlong(options.environment);
     return plan;
 }
 
@@ -179,21 +267,25 @@ Plan make_plan(const Options& options)
 struct Row
 {
     Row(const Plan& plan, const Options& options, const RowScene& scene, const Environment& light,
-        Method method, int height)
+        const Compensation& method, int height)
         : camera(scene.camera(static_cast<float>(plan.width) / static_cast<float>(height))),
           integrator(plan.host,
                      World{scene.scene(), light, camera, plan.width, height,
-                           static_cast<std::uint32_t>(options.seed), 16},
+                           static_cast<std::uint32_t>(options.seed), plan.bounces},
                      materials(plan, method)),
           film(plan.width, height)
     {}
 
-    static std::vector<shaders::SchlickMetal> materials(const Plan& plan, Method method)
+    static std::vector<MicrofacetMaterial> materials(const Plan& plan, const Compensation& method)
     {
-        std::vector<shaders::SchlickMetal> all{floor_material()};
-        const C3f F0(plan.metal.F0), F82(plan.metal.F82);
+        std::vector<MicrofacetMaterial> all{floor_material()};
         for (const float alpha : plan.alphas)
-            all.push_back(shaders::SchlickMetal{F0, F82, alpha, alpha, method});
+        {
+            MicrofacetMaterial material = plan.material;
+            material.alpha_x = material.alpha_y = static_cast<double>(alpha);
+            material.method = method;
+            all.push_back(material);
+        }
         return all;
     }
 
@@ -218,14 +310,23 @@ Picture stack(const std::deque<Row>& rows, int width)
 Metadata describe(const Plan& plan, const Options& options, bool whole, double samples)
 {
     std::vector<std::string_view> methods;
-    for (const Method m : plan.methods) methods.push_back(name(m));
+    for (const Compensation& m : plan.methods) methods.push_back(shaders::name(m));
     Metadata metadata;
     auto& e = metadata.entries;
     e.emplace_back("version", REGAIN_VERSION_STRING);
     e.emplace_back("method", fmt::format("{}", fmt::join(methods, ", ")));
-    e.emplace_back("metal", options.metal);
+    e.emplace_back("material", options.material);
+    if (plan.material.is_interface())
+        e.emplace_back("ior", fmt::format("{}", options.ior));
+    else
+        e.emplace_back("metal", options.metal);
+    e.emplace_back("distribution", options.distribution);
+    if (shaders::has_gamma(plan.material.distribution))
+        e.emplace_back("gamma", fmt::format("{}", options.gamma));
     e.emplace_back("alpha", fmt::format("{}", fmt::join(plan.alphas, ", ")));
     e.emplace_back("host", preview::name(plan.host));
+    e.emplace_back("object", preview::name(plan.layout.object));
+    e.emplace_back("bounces", std::to_string(plan.bounces));
     e.emplace_back("environment", options.environment.empty() ? "studio" : options.environment);
     e.emplace_back("seed", std::to_string(options.seed));
     e.emplace_back("spp", whole ? std::to_string(options.samples) : fmt::format("{:.2f}", samples));
@@ -238,7 +339,7 @@ int render_command(const Options& options)
     const auto start = std::chrono::steady_clock::now();
     Plan plan = make_plan(options);
     const Environment light(std::move(plan.light));
-    const RowScene scene(static_cast<int>(plan.alphas.size()));
+    const RowScene scene(plan.layout);
 
     std::deque<Row> rows;
     const int count = static_cast<int>(plan.methods.size());
@@ -305,7 +406,8 @@ void add_render(CLI::App& app, int& exit_code)
 {
     auto options = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand(
-        "render", "Look-dev picture of metal widgets: EXR, and a PNG for the display");
+        "render",
+        "Look-dev picture of a row of metal or glass objects: EXR, and a PNG for the display");
     command->footer(
         R"(Without options: gold of rising roughness, without compensation (top) and with
 the method turquin (bottom), as in Figure 1 of Turquin 2019. Ctrl-C writes what
@@ -315,23 +417,37 @@ Examples:
   regain render
   regain render --metal copper --alpha 0.1,0.5,1 --size 900x640 -o copper.exr
   regain render --method series --environment studio.hdr --spp 256
-  regain render --host clarisse --view raw --json)");
+  regain render --host clarisse --view raw --json
+  regain render --material glass --ior 1.5 --object sphere --alpha 0,0.2,0.5
+  regain render --material glass --object nested --environment white --method turquin
+  regain render --distribution gtr --gamma 1.5 --method walk)");
     Options& o = *options;
     command->add_option("-o,--output", o.output, "EXR to write; the PNG goes beside it")
         ->capture_default_str();
     command->add_option("--method", o.method,
                         "one row with this compensation method, instead of none above turquin");
+    command->add_option("--material", o.material, "metal or glass")->capture_default_str();
+    command->add_option("--ior", o.ior, "of glass: index inside over index outside, 0.1 to 10")
+        ->capture_default_str();
     command->add_option("--metal", o.metal, "gold, silver, copper, aluminium or brass")
         ->capture_default_str();
     command->add_option("--alpha", o.alphas, "microfacet widths, one widget each, 0 to 1")
         ->delimiter(',')
         ->capture_default_str();
+    command->add_option("--distribution", o.distribution, "of facets: ggx, beckmann, gtr or std")
+        ->capture_default_str();
+    command->add_option("--gamma", o.gamma, "tail of gtr (up to 10) and std (1.51 to 100)")
+        ->capture_default_str();
+    command->add_option("--object", o.object, "widget, sphere, or nested (a sphere in a sphere)")
+        ->capture_default_str();
     command->add_option("--host", o.host, "renderman (batched) or clarisse (one point)")
         ->capture_default_str();
     command->add_option("--environment", o.environment,
-                        "latitude-longitude EXR or HDR that lights the scene [built-in studio]");
+                        "latitude-longitude EXR or HDR that lights the scene, or white: 1 from "
+                        "everywhere, and no floor [built-in studio]");
     command->add_option("--spp", o.samples, "samples per pixel, 1 to 65536")->capture_default_str();
     command->add_option("--seed", o.seed, "of the random numbers")->capture_default_str();
+    command->add_option("--bounces", o.bounces, "at most, per path [16; 64 for glass]");
     command->add_option("--size", o.size, "WIDTHxHEIGHT of the whole picture, in pixels");
     command->add_option("--threads", o.threads, "0: one per core; never changes the picture")
         ->capture_default_str();

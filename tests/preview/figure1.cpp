@@ -37,9 +37,10 @@ Columns render_row(Host host, Method method)
     const World world{scene.scene(), studio, camera, kWidth, kHeight};
 
     // About ACEScg's gold.
-    std::vector<shaders::SchlickMetal> materials{floor_material()};
+    std::vector<shaders::MicrofacetMaterial> materials{floor_material()};
     for (const float alpha : kAlphas)
-        materials.push_back({C3f(0.95f, 0.78f, 0.4f), C3f(1.0f), alpha, alpha, method});
+        materials.emplace_back(
+            shaders::SchlickMetal{C3f(0.95f, 0.78f, 0.4f), C3f(1.0f), alpha, alpha, method});
     const RowIntegrator integrator(host, world, materials);
     Film film(kWidth, kHeight);
     EXPECT_TRUE(render({{{&integrator.get(), &film}}, 32}));

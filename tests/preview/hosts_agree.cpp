@@ -89,7 +89,8 @@ TEST(HostsAgree, GoldFromMirrorToRough)
     public:
         Bound(Host host, const World& world, float alpha)
             : _row(host, world,
-                   {floor_material(), {C3f(0.95f, 0.78f, 0.4f), C3f(1.0f), alpha, alpha}})
+                   {floor_material(),
+                    shaders::SchlickMetal{C3f(0.95f, 0.78f, 0.4f), C3f(1.0f), alpha, alpha}})
         {}
         void render(const Tile& tile, int first, int count, Film& film) const override
         {

@@ -68,7 +68,7 @@ struct GridIntegrator::Workspace
     renderman::LobeSet wanted[kBatch], evaluated[kBatch];
     renderman::Lobe sampled[kBatch];
     C3f weights[static_cast<std::size_t>(renderman::kMaxActive) * kBatch];
-    float forward_pdf[kBatch], reverse_pdf[kBatch];
+    float forward_pdf[kBatch], reverse_pdf[kBatch], ior[kBatch];
 
     /// Where `to` lies as seen from the viewer of point i, by the geometric normal.
     renderman::Domain place(int i, const V3f& to) const
@@ -213,6 +213,7 @@ void GridIntegrator::scatter(renderman::Bxdf& bxdf, Path* const* paths, int n, i
     w.rng.start(w.samplers, n, dimension(Draw::Scatter, bounce));
     bxdf.generateSample(renderman::kAnyLighting, w.wanted, &w.rng, w.sampled, w.direction, weights,
                         w.forward_pdf, w.reverse_pdf, nullptr);
+    const bool two_media = bxdf.materialIor(w.ior);
     for (int i = 0; i < n; ++i)
     {
         Path& path = *paths[i];
@@ -232,6 +233,8 @@ void GridIntegrator::scatter(renderman::Bxdf& bxdf, Path* const* paths, int n, i
             continue;
         }
         path.throughput *= weights.total(i) / pdf;
+        if (two_media && !lobe.reflect)
+            pass_interface(path, w.ior[i], w.view[i].dot(w.geometric_normal[i]) > 0.0f);
         path.ray = path.hit.leave(direction);
         path.pdf = pdf;
         path.alone = lobe.discrete;

@@ -86,8 +86,9 @@ struct PathState
     Ray ray;
     Imath::C3f throughput{1.0f};
     Imath::C3f radiance{0.0f};
-    float pdf = 0.0f;   ///< with which the closure chose `ray`, per steradian
-    bool alone = true;  ///< next-event estimation could not have found this light: no weighting
+    float energy = 1.0f;  ///< times the throughput: of energy, where that is of radiance
+    float pdf = 0.0f;     ///< with which the closure chose `ray`, per steradian
+    bool alone = true;    ///< next-event estimation could not have found this light: no weighting
 };
 
 /// For a closure's answer that is no number: the film counts the sample, whatever else it holds.
@@ -109,12 +110,20 @@ inline void add_environment(const Environment& environment, PathState& path)
     path.radiance += path.throughput * light.radiance * weight;
 }
 
+/// Notes that the path has passed an interface: inside, of relative index `ior`, the radiance of
+/// the same energy is ior^2 times as much. `inwards`: against the light, from outside to inside.
+inline void pass_interface(PathState& path, float ior, bool inwards)
+{
+    path.energy *= inwards ? ior * ior : 1.0f / (ior * ior);
+}
+
 /// Ends dim paths by chance from the fourth bounce on, without bias. A throughput of 1, as white
-/// compensated closures have, always goes on.
+/// compensated closures have, always goes on; so does one that is lower only because the path is
+/// inside a denser medium.
 inline bool survives(PathState& path, int bounce, const Sampler& sampler)
 {
     if (bounce < 3) return true;
-    const float chance = std::min(max_channel(path.throughput), 1.0f);
+    const float chance = std::min(max_channel(path.throughput) * path.energy, 1.0f);
     if (sampler.get1D(dimension(Draw::Roulette, bounce)) >= chance) return false;
     path.throughput /= chance;
     return true;

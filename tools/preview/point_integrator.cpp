@@ -36,8 +36,10 @@ struct Mixture
         {
             const Entry& e = lobes[k];
             view[k] = to_local(e, world_view);
-            // A lobe that can contribute is never picked with probability 0.
-            const float share = luminance(e.weight * e.lobe->albedo(view[k]));
+            // A lobe that can contribute is never picked with probability 0. An albedo may cost
+            // more than all else, and there is nothing to ask it for where there is one lobe.
+            const float share =
+                lobes.size() > 1 ? luminance(e.weight * e.lobe->albedo(view[k])) : 0.0f;
             const float least = max_channel(e.weight) > 0.0f ? 1e-4f : 0.0f;
             probability[k] = std::max(share, least);
             total += probability[k];
@@ -152,12 +154,15 @@ bool PointIntegrator::bounce(PathState& path, const Hit& hit, const Sampler& sam
         return false;
     }
 
+    const auto on_viewers_side = [&](const V3f& direction) {
+        return direction.dot(hit.geometric_normal) * view.dot(hit.geometric_normal) > 0.0f;
+    };
+
     // A lobe's event says on which side of the true surface it may scatter. Reflection to behind
     // the surface exists only because normals are interpolated.
     const auto possible = [&](const V3f& direction, clarisse::event event) {
-        const bool same_side =
-            direction.dot(hit.geometric_normal) * view.dot(hit.geometric_normal) > 0.0f;
-        return same_side == (event == clarisse::event::reflection);
+        if (event == clarisse::event::either) return true;
+        return on_viewers_side(direction) == (event == clarisse::event::reflection);
     };
     const auto any_possible = [&](const V3f& direction) {
         for (int k = 0; k < mixture.lobes.size(); ++k)
@@ -220,6 +225,8 @@ bool PointIntegrator::bounce(PathState& path, const Hit& hit, const Sampler& sam
         path.pdf = pdf;
         path.alone = false;
     }
+    const float ior = entry.lobe->ior();
+    if (ior != 1.0f && !on_viewers_side(direction)) pass_interface(path, ior, point.front_facing);
     path.ray = hit.leave(direction);
     return path.throughput != C3f(0.0f);
 }

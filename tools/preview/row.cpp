@@ -4,12 +4,8 @@
 #include "row.h"
 
 #include "../errors.h"
-#include "grid_integrator.h"
-#include "point_integrator.h"
+#include "bound_material.h"
 #include "widget.h"
-
-#include <regain/clarisse/closure_lobe.h>
-#include <regain/renderman/closure_bxdf.h>
 
 #include <fmt/format.h>
 
@@ -19,11 +15,13 @@ namespace regain::tools::preview {
 
 using Imath::C3f;
 using Imath::V3f;
-using shaders::SchlickMetal;
+using shaders::MicrofacetMaterial;
 
 namespace {
 
 constexpr float kSpacing = 2.4f;
+
+float height_of(Object object) { return object == Object::widget ? kWidgetHeight : kSphereHeight; }
 
 }  // namespace
 
@@ -37,52 +35,85 @@ Host host_named(const std::string& wanted)
 
 const char* name(Host host) { return host == Host::renderman ? "renderman" : "clarisse"; }
 
-RowScene::RowScene(int widgets) : _widgets(widgets)
+Object object_named(const std::string& wanted)
 {
-    const int floor = _scene.add_mesh(make_floor(400.0f));
-    const int widget = _scene.add_mesh(make_widget());
-    _scene.place(floor, V3f(0.0f), 0);
-    for (int i = 0; i < widgets; ++i)
+    for (const Object object : {Object::widget, Object::sphere, Object::nested})
+        if (wanted == name(object)) return object;
+    throw BadInput(
+        fmt::format("--object {}: no such object; there are widget, sphere, nested", wanted));
+}
+
+const char* name(Object object)
+{
+    switch (object)
     {
-        const float x = (static_cast<float>(i) - 0.5f * static_cast<float>(widgets - 1)) * kSpacing;
-        _scene.place(widget, V3f(x, 0.0f, 0.0f), i + 1);
+        case Object::widget: return "widget";
+        case Object::sphere: return "sphere";
+        case Object::nested: return "nested";
+    }
+    return "";
+}
+
+RowScene::RowScene(const RowLayout& layout) : _layout(layout)
+{
+    if (layout.floor) _scene.place(_scene.add_mesh(make_floor(400.0f)), V3f(0.0f), 0);
+    std::vector<int> meshes;
+    if (layout.object == Object::widget)
+        meshes.push_back(_scene.add_mesh(make_widget(layout.transparent)));
+    else
+        meshes.push_back(_scene.add_mesh(make_standing_sphere()));
+    if (layout.object == Object::nested) meshes.push_back(_scene.add_mesh(make_inner_sphere()));
+
+    const float lift = layout.transparent && layout.floor ? 2e-3f : 0.0f;
+    for (int i = 0; i < layout.objects; ++i)
+    {
+        const float place = static_cast<float>(i) - 0.5f * static_cast<float>(layout.objects - 1);
+        for (const int mesh : meshes) _scene.place(mesh, V3f(place * kSpacing, lift, 0.0f), i + 1);
     }
     _scene.commit();
 }
 
 Camera RowScene::camera(float aspect) const
 {
-    return frame_row(_widgets, kSpacing, kWidgetHeight, aspect);
+    return frame_row(_layout.objects, kSpacing, height_of(_layout.object), aspect);
 }
 
-SchlickMetal floor_material()
+MicrofacetMaterial floor_material()
 {
-    return SchlickMetal{C3f(0.3f), C3f(1.0f), 1.0f, 1.0f, Method::turquin};
+    return shaders::SchlickMetal{C3f(0.3f), C3f(1.0f), 1.0f, 1.0f, Method::turquin};
 }
 
-struct RowIntegrator::Binding
+std::unique_ptr<BoundMaterial> bind(const MicrofacetMaterial& material)
 {
-    std::vector<SchlickMetal> materials;
-    renderman::ClosureFactory<SchlickMetal> factory;
-    clarisse::material_callbacks<float> callbacks =
-        clarisse::closure_callbacks<SchlickMetal, float>();
-};
+    using shaders::DistributionKind;
+    switch (material.distribution)
+    {
+        case DistributionKind::beckmann: return bind_beckmann(material);
+        case DistributionKind::gtr: return bind_gtr(material);
+        case DistributionKind::std: return bind_std(material);
+        case DistributionKind::ggx: break;
+    }
+    return bind_ggx(material);
+}
 
-RowIntegrator::RowIntegrator(Host host, const World& world, std::vector<SchlickMetal> materials)
-    : _binding(std::make_unique<Binding>())
+RowIntegrator::RowIntegrator(Host host, const World& world,
+                             const std::vector<MicrofacetMaterial>& materials)
 {
-    _binding->materials = std::move(materials);
+    for (MicrofacetMaterial material : materials)
+    {
+        material.bind_tables();
+        _materials.push_back(bind(material));
+    }
     if (host == Host::renderman)
     {
         std::vector<GridMaterial> bound;
-        for (SchlickMetal& m : _binding->materials) bound.push_back({&_binding->factory, &m});
+        for (const auto& m : _materials) bound.push_back(m->grid());
         _integrator = std::make_unique<GridIntegrator>(world, std::move(bound));
     }
     else
     {
         std::vector<PointMaterial> bound;
-        for (const SchlickMetal& m : _binding->materials)
-            bound.push_back({&_binding->callbacks, &m});
+        for (const auto& m : _materials) bound.push_back(m->point());
         _integrator = std::make_unique<PointIntegrator>(world, bound);
     }
 }

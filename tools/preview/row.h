@@ -2,17 +2,18 @@
 // Copyright Contributors to the Regain project
 
 /// @file
-/// The preview's scene: a row of widgets on a floor, each with a metal of its own, seen through one
-/// of the hosts.
+/// The preview's scene: a row of objects on a floor, each with a material of its own, seen through
+/// one of the hosts.
 
 #pragma once
 
 #include "integrator.h"
 
-#include <regain/shaders/material.h>
+#include <regain/shaders/microfacet_material.h>
 
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace regain::tools::preview {
@@ -23,35 +24,55 @@ enum class Host { renderman, clarisse };
 Host host_named(const std::string&);
 const char* name(Host);
 
-/// Geometry of a row of `widgets` on a floor: material 0 is the floor, 1 ... are the widgets from
-/// left to right.
+/// The widget; a sphere; a sphere with another inside.
+enum class Object { widget, sphere, nested };
+
+/// "widget", "sphere", "nested"; BadInput for any other name.
+Object object_named(const std::string&);
+const char* name(Object);
+
+/// What stands in the row.
+struct RowLayout
+{
+    int objects = 1;
+    Object object = Object::widget;
+    bool floor = true;
+    /// The objects let light through: then they have a bottom, and stand a hair above the floor.
+    bool transparent = false;
+};
+
+/// Geometry of a row: material 0 is the floor, 1 ... are the objects from left to right. What is
+/// inside an object has its material, too.
 class RowScene
 {
 public:
-    explicit RowScene(int widgets);
+    explicit RowScene(int widgets) : RowScene(RowLayout{widgets}) {}
+    explicit RowScene(const RowLayout&);
     const Scene& scene() const { return _scene; }
     Camera camera(float aspect) const;
 
 private:
     Scene _scene;
-    int _widgets;
+    RowLayout _layout;
 };
 
-/// The floor: dull grey, the same in every picture so that the eye compares the widgets alone.
-shaders::SchlickMetal floor_material();
+/// The floor: dull grey, the same in every picture so that the eye compares the objects alone.
+shaders::MicrofacetMaterial floor_material();
+
+class BoundMaterial;
 
 /// An integrator with its materials, by the indices of RowScene. They are reached through the
 /// adapter of the host and in no other way.
 class RowIntegrator
 {
 public:
-    RowIntegrator(Host, const World&, std::vector<shaders::SchlickMetal> materials);
+    /// Binds the tables of the materials.
+    RowIntegrator(Host, const World&, const std::vector<shaders::MicrofacetMaterial>& materials);
     ~RowIntegrator();
     const Integrator& get() const { return *_integrator; }
 
 private:
-    struct Binding;
-    std::unique_ptr<Binding> _binding;
+    std::vector<std::unique_ptr<BoundMaterial>> _materials;
     std::unique_ptr<Integrator> _integrator;
 };
 

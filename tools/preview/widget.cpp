@@ -48,7 +48,8 @@ void add_revolution(Mesh& mesh, const std::vector<ProfilePoint>& profile, float 
 /// A regular prism with every edge rounded: the inner prism's corners, moved out by the fillet
 /// radius along each direction that belongs to the corner. Flat faces come out flat because both
 /// of their ends carry the same normal.
-void add_rounded_prism(Mesh& mesh, int sides, float inner_radius, float height, float fillet)
+void add_rounded_prism(Mesh& mesh, int sides, float inner_radius, float height, float fillet,
+                       bool closed)
 {
     std::vector<V2f> corners, directions;  // x, z; a facet faces +z
     for (int side = 0; side < sides; ++side)
@@ -82,10 +83,14 @@ void add_rounded_prism(Mesh& mesh, int sides, float inner_radius, float height, 
                  const V3f n(e.x * d.x, e.y, e.x * d.y);
                  return Vertex{V3f(c.x, base, c.y) + n * fillet, n, V3f(d.y, 0.0f, -d.x)};
              });
-    std::vector<V3f> top;
+    std::vector<V3f> top, bottom;
     for (std::size_t i = 0; i < corners.size(); i += kFillet + 1)
+    {
         top.push_back({corners[i].x, height, corners[i].y});
+        bottom.push_back({corners[i].x, 0.0f, corners[i].y});
+    }
     add_polygon(mesh, top, {0, 1, 0});
+    if (closed) add_polygon(mesh, bottom, {0, -1, 0});
 }
 
 void add_ring(Mesh& mesh, float height, float radius, float thickness)
@@ -173,10 +178,10 @@ void add_shell(Mesh& mesh, const ShellPart& s)
 
 }  // namespace
 
-Mesh make_widget()
+Mesh make_widget(bool closed)
 {
     Mesh mesh;
-    add_rounded_prism(mesh, 8, 1.0f, 0.3f, 0.045f);
+    add_rounded_prism(mesh, 8, 1.0f, 0.3f, 0.045f, closed);
     add_ring(mesh, 0.37f, 0.5f, 0.12f);
 
     const float centre = 1.2f, full = 2.0f * kPi;
@@ -186,6 +191,20 @@ Mesh make_widget()
                      radians(62 + 250)});
     add_shell(mesh, {centre, inner, outer, fillet, radians(116), kPi, 0.0f, full});
     add_sphere(mesh, {0.0f, centre, 0.0f}, 0.52f, 96);
+    return mesh;
+}
+
+Mesh make_standing_sphere()
+{
+    Mesh mesh;
+    add_sphere(mesh, {0.0f, 0.5f * kSphereHeight, 0.0f}, 0.5f * kSphereHeight, 192);
+    return mesh;
+}
+
+Mesh make_inner_sphere()
+{
+    Mesh mesh;
+    add_sphere(mesh, {0.0f, 0.5f * kSphereHeight, 0.0f}, 0.25f * kSphereHeight, 192);
     return mesh;
 }
 

@@ -16,7 +16,16 @@ namespace regain::tools::preview {
 constexpr float kWidgetHeight = 2.05f;
 constexpr float kWidgetRadius = 1.08f;
 
-Mesh make_widget();
+/// Without a bottom, which no one sees through metal. `closed` adds it: light that goes through has
+/// to find every surface twice.
+Mesh make_widget(bool closed = false);
+
+/// A sphere of radius 1 that stands on y = 0.
+constexpr float kSphereHeight = 2.0f;
+Mesh make_standing_sphere();
+
+/// One half as large about the same centre.
+Mesh make_inner_sphere();
 
 /// A square in the plane y = 0, `half_size` to each side of the origin.
 Mesh make_floor(float half_size);

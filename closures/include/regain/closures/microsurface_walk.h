@@ -93,12 +93,7 @@ public:
         const Mask up = z > constant<Real>(horizon);
         if (!any<Real>(both<Real>(active, _drawn | !up))) return left;
 
-        const Mask draw = both<Real>(!_drawn, !up);
-        if (any<Real>(both<Real>(active, draw)))
-        {
-            _tau = select(draw, exponential(first) * _mu / _area, _tau);
-            _drawn = _drawn | draw;
-        }
+        draw(first, both<Real>(active, !up));
         const Real step = exponential(u) * detail::abs(z);
         const Mask ends = both<Real>(both<Real>(up, _drawn), step >= _tau * area);
         // Where area underflows the ray goes straight up, and leaves.
@@ -107,7 +102,46 @@ public:
         return left | ends;
     }
 
+    /// The same for a ray that is not to leave: returns the probability that it does not.
+    Real stay(const Real& z, const Real& area, const Real& u, const Real& first, const Mask& active)
+    {
+        const Mask up = z > constant<Real>(horizon);
+        const Real stays =
+            select(up, Real(1) - escape_probability(select(up, z, Real(1)), area), Real(1));
+        move(z, area, u * stays, first, active);
+        return stays;
+    }
+
+    /// Probability that a ray from here leaves on the other side of the surface; z and area as
+    /// above, in the frame of that side.
+    Real escape_beyond(const Real& z, const Real& area, const Real& first) const
+    {
+        WalkDepth other = *this;
+        other.cross(first, Mask(true));
+        return detail::exp(-other._tau * area / z);
+    }
+
+    /// The ray passes to the other side of the surface, where light in `lanes` goes on. What was
+    /// below is above, and C1 becomes 1 - C1.
+    void cross(const Real& first, const Mask& lanes)
+    {
+        draw(first, lanes);
+        // Half an ulp is as near to the far end as C1 can tell.
+        const Real above = detail::max(Real(1) - detail::exp(-_tau),
+                                       Real(std::numeric_limits<ScalarOf<Real>>::epsilon() / 2));
+        _tau = select(lanes, -detail::log(above), _tau);
+    }
+
 private:
+    // Draws the depth of the first hit in these lanes, unless that has been done.
+    void draw(const Real& first, const Mask& lanes)
+    {
+        const Mask now = both<Real>(lanes, !_drawn);
+        if (!any<Real>(now)) return;
+        _tau = select(now, exponential(first) * _mu / _area, _tau);
+        _drawn = _drawn | now;
+    }
+
     Real _mu, _area;  // of wo
     Real _tau;        // where drawn
     Mask _drawn;
@@ -132,6 +166,39 @@ struct FacetReflection
         cosine = detail::min(Real(0.5f) * detail::sqrt(length2), Real(1));
     }
 };
+
+/// A facet that refracts v into wi, from the side of v: 1 / sigma(v) times this is the density of
+/// wi, per steradian, among the refractions of v at the normals visible from v; and the cosines
+/// about the facet. eta: index ahead of v over the one behind.
+template <class Real>
+struct FacetRefraction
+{
+    Real D_jacobian, cosine, cosine_beyond;
+
+    template <class Distribution>
+    FacetRefraction(const Distribution& distribution, const Vec3<Real>& v, const Vec3<Real>& wi,
+                    const RelativeIndex<Real>& eta)
+    {
+        const Vec3<Real> sum = refraction_half_vector(v, wi, eta);
+        const Real along = dot(v, sum), beyond = -dot(wi, sum), sum2 = dot(sum, sum);
+        const MaskOf<Real> facing =
+            both<Real>(both<Real>(sum.z > constant<Real>(1e-15), sum2 > constant<Real>(1e-20)),
+                       both<Real>(along > Real(0), beyond > Real(0)));
+        const Vec3<Real> h = select(facing, sum, Vec3<Real>(Real(0), Real(0), Real(1)));
+        const Real length2 = select(facing, sum2, Real(1)), inv = Real(1) / detail::sqrt(length2);
+        cosine = select(facing, detail::min(along * inv, Real(1)), Real(1));
+        cosine_beyond = select(facing, detail::min(beyond * inv, Real(1)), Real(1));
+        const Real jacobian = eta.eta * eta.eta * cosine_beyond / length2;
+        D_jacobian = select(facing, distribution.D(h, length2) * cosine * jacobian, Real(0));
+    }
+};
+
+/// A direction seen in a mirror on the surface: what one side's frame is to the other's.
+template <class Real>
+Vec3<Real> mirrored(const Vec3<Real>& w)
+{
+    return {w.x, w.y, -w.z};
+}
 
 /// The numbers of the i-th of several walks from the host's: shifted along an additive recurrence
 /// (Roberts 2018), so that the first bounces of the walks are spread evenly.

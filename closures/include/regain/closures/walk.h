@@ -213,9 +213,7 @@ public:
             Real step = three ? stream.next() : spare;
             if constexpr (!leaves_at_once)
             {
-                const Mask up = d.z > Real(0);
-                p.weight *= Real(1) - depth.escape_probability(detail::max(d.z, Real(0)), area);
-                depth.move(d.z, area, step, first, detail::both<Real>(active, !up));
+                p.weight *= depth.stay(d.z, area, step, first, active);
             }
             else
                 active = detail::both<Real>(active, !depth.move(d.z, area, step, first, active));

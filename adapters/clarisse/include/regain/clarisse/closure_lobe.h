@@ -5,11 +5,18 @@
 /// Any material whose closure answers as in <regain/closures/closure.h>, behind the one-point
 /// interface of host.h. A material is what <regain/shaders/material.h> describes; the object that
 /// the callbacks are given is a `const Material*`.
+///
+/// A closure is one lobe; an interface between two media is one, too, with the event `either`,
+/// because its sampler picks the event. Only a closure whose samples are of both kinds, with and
+/// without density, becomes two lobes, of which each passes on its own kind.
+///
+/// A closure whose eval is an estimate gets random numbers that are a hash of the two directions.
 
 #pragma once
 
 #include <regain/clarisse/host.h>
-#include <regain/closures/compensated.h>
+#include <regain/closures/host_queries.h>
+#include <regain/closures/random_stream.h>
 
 #include <cmath>
 
@@ -24,30 +31,35 @@ public:
     using Real = typename Closure::Real;
 
     /// view and ng are in the lobe's frame: the known direction it is prepared for, and the
-    /// geometric normal on the viewer's side.
+    /// geometric normal on the side of +z. Of the closure's samples the lobe is those that have a
+    /// density, or those that have none.
     ClosureLobe(const Closure& closure, const char* name, const vec3<Real>& view,
-                const vec3<Real>& ng)
-        : _closure(closure), _prepared(closure.prepare(view)), _view(view), _ng(ng), _name(name)
+                const vec3<Real>& ng, scatter kind)
+        : _closure(closure),
+          _prepared(closure.prepare(known(view, ng))),
+          _view(view),
+          _ng(ng),
+          _name(name),
+          _kind(kind)
     {}
 
     lobe_label label() const override
     {
-        return {event::reflection, is_singular() ? scatter::singular : scatter::glossy, _name};
+        const event ev = _closure.traits().transmissive ? event::either : event::reflection;
+        return {ev, _kind, _name};
     }
 
-    Real roughness() const override
-    {
-        const auto& d = _closure.lobe().distribution();
-        return is_singular() ? Real(0) : d.alpha_x() < d.alpha_y() ? d.alpha_y() : d.alpha_x();
-    }
+    Real roughness() const override { return is_singular() ? Real(0) : widest_alpha(_closure); }
 
-    Real sample(const vec3<Real>& wi, Real u, Real v, Real, vec3<Real>& wo, color<Real>& weight,
+    Real sample(const vec3<Real>& wi, Real u, Real v, Real w, vec3<Real>& wo, color<Real>& weight,
                 Real* reverse_pdf) const override
     {
-        const Sample<Real> s = with_known(wi, [&](const auto& p) { return p.sample({u, v}); });
+        const Sample<Real> s =
+            with_known(wi, [&](const auto& p) { return p.sample(regain::Vec3<Real>(u, v, w)); });
         wo = s.wi;
-        if (!s.valid || !(_ng.dot(wo) > 0)) return none(weight, reverse_pdf);
-        weight = s.weight;
+        if (!s.valid || s.delta != is_singular() || !is_on_its_side(wo))
+            return none(weight, reverse_pdf);
+        weight = s.weight * radiance_factor(_closure, wi, wo);
         if (reverse_pdf) *reverse_pdf = s.delta ? s.pdf : _closure.pdf(wo, wi);
         return s.pdf;
     }
@@ -55,10 +67,11 @@ public:
     Real evaluate(const vec3<Real>& wi, const vec3<Real>& wo, color<Real>& weight,
                   Real* reverse_pdf) const override
     {
-        if (!(_ng.dot(wo) > 0)) return none(weight, reverse_pdf);
+        if (is_singular() || !is_on_its_side(wo)) return none(weight, reverse_pdf);
         const Real pdf = with_known(wi, [&](const auto& p) {
             const Real density = p.pdf(wo);
-            if (density > 0) weight = p.eval(wo) * (Real(1) / density);
+            if (density > 0)
+                weight = value(p, wi, wo) * (radiance_factor(_closure, wi, wo) / density);
             return density;
         });
         if (!(pdf > 0)) return none(weight, reverse_pdf);
@@ -68,11 +81,16 @@ public:
 
     color<Real> albedo(const vec3<Real>& wi) const override
     {
-        return with_known(wi, [](const auto& p) { return p.albedo().reflect; });
+        return with_known(wi, [](const auto& p) {
+            const auto a = p.albedo();
+            return a.reflect + a.transmit;
+        });
     }
 
+    Real ior() const override { return relative_index(_closure); }
+
 private:
-    bool is_singular() const { return _closure.traits().delta; }
+    bool is_singular() const { return _kind == scatter::singular; }
 
     static Real none(color<Real>& weight, Real* reverse_pdf)
     {
@@ -81,35 +99,67 @@ private:
         return 0;
     }
 
+    // The shading normal and the true one agree on which side a direction is.
+    bool is_on_its_side(const vec3<Real>& wo) const { return is_on_its_side(wo, _ng); }
+    static bool is_on_its_side(const vec3<Real>& w, const vec3<Real>& ng)
+    {
+        const Real side = ng.dot(w);
+        return w.z < 0 ? side < 0 : side > 0;
+    }
+
+    // Where they do not, the closure is asked about no direction and is black.
+    static vec3<Real> known(const vec3<Real>& wi, const vec3<Real>& ng)
+    {
+        return is_on_its_side(wi, ng) ? wi : vec3<Real>(Real(0));
+    }
+
+    template <class Prepared>
+    static color<Real> value(const Prepared& prepared, [[maybe_unused]] const vec3<Real>& wi,
+                             const vec3<Real>& wo)
+    {
+        if constexpr (regain::detail::TakesNumbersInEval<Prepared, Real>::value)
+        {
+            const auto u = RandomStream<Real>(wi).next3();
+            return prepared.eval(wo, RandomStream<Real>(u + wo).next3());
+        }
+        else
+            return prepared.eval(wo);
+    }
+
     // Hosts nearly always ask about the direction the lobe was made for.
     template <class Ask>
     auto with_known(const vec3<Real>& wi, const Ask& ask) const
     {
-        return wi == _view ? ask(_prepared) : ask(_closure.prepare(wi));
+        return wi == _view ? ask(_prepared) : ask(_closure.prepare(known(wi, _ng)));
     }
 
     Closure _closure;
     typename Closure::Prepared _prepared;
     vec3<Real> _view, _ng;
     const char* _name;
+    scatter _kind;
 };
 
 namespace detail {
 
-template <class Material, class Real>
-bool create_lobes(const void* data, const shading_point<Real>& point, scratchpad& pad,
-                  lobe_list<Real>& list)
+/// Adds the closure's lobe, or two. False when the scratchpad is full.
+template <class Closure>
+bool add_lobes(const Closure& closure, const char* name,
+               const shading_point<typename Closure::Real>& point, scratchpad& pad,
+               lobe_list<typename Closure::Real>& list)
 {
-    const Material& material = *static_cast<const Material*>(data);
-    const auto closure = material.closure(point.multiple_scattering_strength);
-    using Lobe = ClosureLobe<std::decay_t<decltype(closure)>>;
+    using Real = typename Closure::Real;
 
-    // Which way the surface faces: single-sided ones are black from behind, inverted ones from the
-    // front, double-sided ones turn towards the viewer.
-    const bool front = point.front_facing;
-    if (point.sides == sidedness::single_sided && !front) return true;
-    if (point.sides == sidedness::inverted && front) return true;
-    const Real side = front ? Real(1) : Real(-1);
+    // Which way the surface faces. An interface has an outside. Of the others, single-sided ones
+    // are black from behind, inverted ones from the front, double-sided ones turn towards the
+    // viewer.
+    bool turned = !point.front_facing;
+    if (is_interface(closure))
+        turned = point.sides == sidedness::inverted;
+    else if (point.sides != sidedness::double_sided &&
+             turned != (point.sides == sidedness::inverted))
+        return true;
+    const Real side = turned ? Real(-1) : Real(1);
 
     lobe_entry<Real> entry;
     entry.z = point.ns * side;
@@ -126,13 +176,28 @@ bool create_lobes(const void* data, const shading_point<Real>& point, scratchpad
     const auto local = [&](const vec3<Real>& w) {
         return vec3<Real>(w.dot(entry.x), w.dot(entry.y), w.dot(entry.z));
     };
-    const lobe_label label{event::reflection,
-                           closure.traits().delta ? scatter::singular : scatter::glossy, ""};
-    if (!(label.category() & point.wanted)) return true;
+    const vec3<Real> view = local(point.view), ng = local(point.ng * side);
 
-    entry.lobe =
-        pad.make<Lobe>(closure, material.lobe_name(), local(point.view), local(point.ng * side));
-    return list.add(entry);
+    const Traits traits = closure.traits();
+    for (const scatter kind : {scatter::glossy, scatter::singular})
+    {
+        if (kind == scatter::glossy ? is_delta(closure) : !traits.delta) continue;
+        const event ev = traits.transmissive ? event::either : event::reflection;
+        if (!(lobe_label{ev, kind, name}.category() & point.wanted)) continue;
+        entry.lobe = pad.make<ClosureLobe<Closure>>(closure, name, view, ng, kind);
+        if (!list.add(entry)) return false;
+    }
+    return true;
+}
+
+template <class Material, class Real>
+bool create_lobes(const void* data, const shading_point<Real>& point, scratchpad& pad,
+                  lobe_list<Real>& list)
+{
+    const Material& material = *static_cast<const Material*>(data);
+    return with_closure(material, point.multiple_scattering_strength, [&](const auto& closure) {
+        return add_lobes(closure, material.lobe_name(), point, pad, list);
+    });
 }
 
 }  // namespace detail

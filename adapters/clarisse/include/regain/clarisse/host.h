@@ -10,18 +10,24 @@
 ///
 /// Contract
 ///  P1 Lobe calls use the lobe's own orthonormal frame, z = its shading normal, turned so that
-///     wi.z > 0. `wi` is the KNOWN direction (towards the viewer), `wo` the sampled or queried one;
-///     both unit, both outward. The closures call the known one wo: the adapter swaps the names.
+///     wi.z > 0; that of an interface between two media is not turned, and wi.z < 0 is inside. `wi`
+///     is the KNOWN direction (towards the viewer), `wo` the sampled or queried one; both unit,
+///     both outward. The closures call the known one wo: the adapter swaps the names.
 ///  P2 weight = f |wo.z| / pdf, gain included, entry weight excluded. The pdf is per steradian, for
 ///     this lobe alone. pdf == 0 means "no sample"; the weight is then 0.
-///  P3 Singular lobes: sample returns pdf = 1 and weight = energy fraction; evaluate returns 0.
+///  P3 Singular lobes: sample returns the probability with which it picks wo, 1 for a mirror, and
+///     weight = energy fraction over that; evaluate returns 0. No lobe is singular for some
+///     directions and not for others.
 ///  P4 The host picks the lobe, with probability by luminance of entry.weight * albedo(wi), and
 ///     forms the mixture pdf and the mixture value.
 ///  P5 albedo(wi) includes the gain. It drives P4, layering and albedo outputs.
-///  P6 Unidirectional: radiance only. `reverse_pdf` may be null; if not, it receives the same
-///     lobe's density of wi given wo.
+///  P6 Unidirectional: radiance only, so a transmitted weight holds (n_wi / n_wo)^2, the indices on
+///     the sides of wi and of wo; albedo is energy and does not. `reverse_pdf` may be null; if not,
+///     it receives the same lobe's density of wi given wo.
 ///  P7 Lobes are built in the thread's scratchpad by create_lobes. Nothing is allocated after that;
 ///     the material's data is const and shared by all threads.
+///  P8 `evaluate` gets no random numbers. A lobe that can only estimate its value answers the same
+///     estimate for the same two directions; it is right on average over neighbouring directions.
 
 #pragma once
 
@@ -43,8 +49,11 @@ using vec3 = Imath::Vec3<Real>;
 template <class Real>
 using color = Imath::Color3<Real>;
 
-enum class event : std::uint8_t { reflection = 'R', transmission = 'T' };
+/// What a lobe does; `either` is one lobe that does both, and the side of wo says which.
+enum class event : std::uint8_t { reflection = 'R', transmission = 'T', either = 'E' };
 enum class scatter : std::uint8_t { diffuse = 'D', glossy = 'G', singular = 'S' };
+/// Which sides of a surface scatter. An interface has both: single_sided and double_sided leave its
+/// normals as they are, inverted turns it inside out.
 enum class sidedness : std::uint8_t { single_sided, double_sided, inverted };
 
 /// The path tracer's depth and sampling categories, as bits.
@@ -65,11 +74,13 @@ struct lobe_label
     scatter sc = scatter::diffuse;
     const char* name = "";  ///< static storage
 
+    /// One bit, or two where the event is `either`.
     std::uint32_t category() const
     {
-        const int side = ev == event::transmission ? 3 : 0;
         const int kind = sc == scatter::diffuse ? 0 : sc == scatter::glossy ? 1 : 2;
-        return 1u << (side + kind);
+        const std::uint32_t reflected = 1u << kind, transmitted = 8u << kind;
+        return (ev == event::transmission ? 0u : reflected) |
+               (ev == event::reflection ? 0u : transmitted);
     }
 };
 
@@ -82,7 +93,7 @@ struct shading_point
     bool front_facing = true;       ///< dot(ng, view) > 0 before any flip
     sidedness sides = sidedness::double_sided;
     Real multiple_scattering_strength = 1;  ///< 0 = off, 1 = full compensation
-    std::uint32_t wanted = all_lobes;       ///< lobes not in here need not be created
+    std::uint32_t wanted = all_lobes;       ///< a lobe with no category in here need not be created
 };
 
 /// Base of whatever lives in a scratchpad. Its destructor is not run.
@@ -133,7 +144,12 @@ public:
     virtual Real evaluate(const vec3<Real>& wi, const vec3<Real>& wo, color<Real>& weight,
                           Real* reverse_pdf) const = 0;
 
+    /// Reflected and transmitted energy together.
     virtual color<Real> albedo(const vec3<Real>& wi) const = 0;
+
+    /// Index of refraction inside over that outside; 1 where one medium is on both sides. By it a
+    /// host undoes the factor of P6 where it compares throughputs.
+    virtual Real ior() const { return 1; }
 };
 
 template <class Real>

@@ -20,7 +20,11 @@
 ///     `evaluated[i]`; pdfs and weights of that point are then 0. A black sample is valid.
 ///  C6 A Bxdf belongs to one thread; its Factory is shared by all. Memory comes from the arena of
 ///     the context and lives as long as the context; no destructor is run.
-///  C7 `ctx->lightPath`: importance is carried, V is the light's side and L the eye's.
+///  C7 `ctx->lightPath`: importance is carried, V is the light's side and L the eye's. On an eye
+///     path radiance is, and a transmitted weight holds (n_V / n_L)^2, the indices on the sides of
+///     V and of L; on a light path it does not.
+///  C8 The surface of an interface between two media has an outside: where the normals point. Which
+///     side V is on is told by Ngn. Other surfaces are the same from both sides.
 
 #pragma once
 
@@ -212,9 +216,14 @@ public:
                                         int n, LobeSet* evaluated, const Vec3* Ln, LobeWeights&,
                                         float* fwdPdf, float* revPdf) = 0;
 
-    /// Directional albedo towards Vn per point, gain included [GetProperty(k_Albedo)]; false when
-    /// the bxdf has none.
+    /// Directional albedo towards Vn per point, reflected and transmitted energy together, gain
+    /// included [GetProperty(k_Albedo)]; false when the bxdf has none.
     virtual bool albedo(Color3*) const { return false; }
+
+    /// Index of refraction inside over that outside, per point; false when the bxdf lets no light
+    /// through, or has one medium on both sides [GetProperty(k_MaterialIor)]. By it a host undoes
+    /// the factor of C7 where it compares throughputs.
+    virtual bool materialIor(float*) const { return false; }
 
 protected:
     ~Bxdf() = default;

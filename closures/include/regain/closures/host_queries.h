@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+/// @file
+/// What an adapter asks of any material and of any closure, beyond what closure.h lists.
+///
+/// A material answers one of
+///
+///     template <class Real> auto closure(Real strength) const
+///     template <class Real, class Visit>
+///     decltype(auto) with_closure(Real strength, const Visit& visit) const    visit(closure)
+///
+/// the second where the type of the closure is known only at run time. with_closure() below calls
+/// either.
+///
+/// A closure is asked for
+///
+///     distribution()    its microfacets, where it has some
+///     eta()             where it is an interface between two media: index on the -z side over
+///                       index on the +z side
+///     lobe()            a closure inside it, which is asked in its place
+///     first(), second() the closures it is the sum of
+///
+/// and where it has none of these, the answer is the one of a surface without them.
+
+#pragma once
+
+#include <regain/closures/closure.h>
+#include <regain/closures/compensated.h>
+
+REGAIN_NAMESPACE_BEGIN
+
+namespace detail {
+
+template <class Closure, class = void>
+struct HasDistribution : std::false_type
+{};
+template <class Closure>
+struct HasDistribution<Closure,
+                       std::void_t<decltype(std::declval<const Closure&>().distribution())>>
+    : std::true_type
+{};
+
+template <class Closure, class = void>
+struct HasEta : std::false_type
+{};
+template <class Closure>
+struct HasEta<Closure, std::void_t<decltype(std::declval<const Closure&>().eta())>> : std::true_type
+{};
+
+template <class Closure, class = void>
+struct HasLobe : std::false_type
+{};
+template <class Closure>
+struct HasLobe<Closure, std::void_t<decltype(std::declval<const Closure&>().lobe())>>
+    : std::true_type
+{};
+
+template <class Closure, class = void>
+struct IsSum : std::false_type
+{};
+template <class Closure>
+struct IsSum<Closure, std::void_t<decltype(std::declval<const Closure&>().first()),
+                                  decltype(std::declval<const Closure&>().second())>>
+    : std::true_type
+{};
+
+template <class Material, class Real, class Visit, class = void>
+struct ChoosesClosure : std::false_type
+{};
+template <class Material, class Real, class Visit>
+struct ChoosesClosure<Material, Real, Visit,
+                      std::void_t<decltype(std::declval<const Material&>().with_closure(
+                          std::declval<Real>(), std::declval<const Visit&>()))>> : std::true_type
+{};
+
+}  // namespace detail
+
+/// visit(closure) with the closure of the material; strength of the compensation in [0, 1]. Visit
+/// answers the same type for every closure.
+template <class Material, class Real, class Visit>
+decltype(auto) with_closure(const Material& material, Real strength, const Visit& visit)
+{
+    if constexpr (detail::ChoosesClosure<Material, Real, Visit>::value)
+        return material.with_closure(strength, visit);
+    else
+        return visit(material.closure(strength));
+}
+
+/// Index on the -z side over index on the +z side; 1 where one medium is on both.
+template <class Closure>
+typename Closure::Real relative_index(const Closure& closure)
+{
+    if constexpr (detail::HasEta<Closure>::value)
+        return closure.eta();
+    else if constexpr (detail::HasLobe<Closure>::value)
+        return relative_index(closure.lobe());
+    else if constexpr (detail::IsSum<Closure>::value)
+        return relative_index(closure.first());
+    else
+        return typename Closure::Real(1);
+}
+
+/// The two sides of the surface are told apart: the closure answers for wo of either sign, and is
+/// not to be turned towards the viewer.
+template <class Closure>
+bool is_interface(const Closure& closure)
+{
+    return closure.traits().transmissive || relative_index(closure) != typename Closure::Real(1);
+}
+
+/// (n_o / n_i)^2, n_o being the index on the side of wo and n_i on that of wi: what turns a
+/// transmitted energy into a transmitted radiance. 1 for a wi on the side of wo.
+template <class Closure, class Real = typename Closure::Real>
+Real radiance_factor(const Closure& closure, const Vec3<Real>& wo, const Vec3<Real>& wi)
+{
+    if ((wo.z < 0) == (wi.z < 0)) return Real(1);
+    const Real eta = relative_index(closure);
+    const Real ratio = wo.z < 0 ? eta : Real(1) / eta;
+    return ratio * ratio;
+}
+
+/// The wider of the two microfacet widths; 1 for a closure without microfacets.
+template <class Closure>
+typename Closure::Real widest_alpha(const Closure& closure)
+{
+    if constexpr (detail::HasDistribution<Closure>::value)
+        return detail::max(closure.distribution().alpha_x(), closure.distribution().alpha_y());
+    else if constexpr (detail::HasLobe<Closure>::value)
+        return widest_alpha(closure.lobe());
+    else if constexpr (detail::IsSum<Closure>::value)
+        return detail::max(widest_alpha(closure.first()), widest_alpha(closure.second()));
+    else
+        return typename Closure::Real(1);
+}
+
+/// All that it scatters has no density: a mirror, smooth glass. A closure for which only
+/// traits().delta holds may return both kinds of direction.
+template <class Closure>
+bool is_delta(const Closure& closure)
+{
+    if constexpr (detail::HasDistribution<Closure>::value)
+        return closure.traits().delta && closure.distribution().is_delta();
+    else if constexpr (detail::HasLobe<Closure>::value)
+        return is_delta(closure.lobe());
+    else if constexpr (detail::IsSum<Closure>::value)
+        return is_delta(closure.first()) && is_delta(closure.second());
+    else
+        return false;
+}
+
+/// The closure for a path that carries importance: what eval and sample say is then what the eye
+/// sees from wi. A gain that is not reciprocal is taken at the other end; all else is reciprocal.
+template <class Closure>
+const Closure& for_light_path(const Closure& closure)
+{
+    return closure;
+}
+template <class Lobe, class Gain>
+Compensated<Lobe, ReversedGain<Gain, typename Lobe::Real>> for_light_path(
+    const Compensated<Lobe, Gain>& closure)
+{
+    return reversed(closure);
+}
+
+REGAIN_NAMESPACE_END

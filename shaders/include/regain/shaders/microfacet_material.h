@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+/// @file
+/// A material whose lobe, distribution and method of compensation are chosen at run time, by name:
+///
+///     MicrofacetMaterial m;
+///     m.surface = InterfaceSurface{1.5};
+///     m.distribution = DistributionKind::beckmann;
+///     m.alpha_x = m.alpha_y = 0.4;
+///     m.method = *compensation_named("turquin");
+///     m.bind_tables();                             // throws where there is no such combination
+///     m.with_closure(1.0f, [](const auto& closure) { ... });
+///
+/// with_closure calls with one of many types of closures, all of which are then compiled: keep what
+/// it is given small, and in a file of its own. Where time to compile counts, with_closure_of<GGX>
+/// and so on take one distribution.
+///
+/// Parameters are in double, so that closures of any precision can be made of them.
+
+#pragma once
+
+#include <regain/closures/beckmann.h>
+#include <regain/closures/conductor_fresnel.h>
+#include <regain/closures/dielectric_walk.h>
+#include <regain/closures/ggx.h>
+#include <regain/closures/gtr.h>
+#include <regain/closures/kulla_conty.h>
+#include <regain/closures/method_gain.h>
+#include <regain/closures/microfacet_reflection.h>
+#include <regain/closures/schlick_fresnel.h>
+#include <regain/closures/sheen.h>
+#include <regain/closures/std.h>
+#include <regain/closures/walk.h>
+#include <regain/shaders/export.h>
+#include <regain/shaders/material.h>
+
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+REGAIN_NAMESPACE_BEGIN
+namespace shaders {
+
+using ColorD = Imath::Color3<double>;
+
+/// MaterialX's generalized_schlick_bsdf, scatter mode R. Colours linear, in [0, 1].
+struct SchlickSurface
+{
+    ColorD F0{1.0}, F82{1.0}, F90{1.0};
+    double exponent = 5;
+};
+
+/// MaterialX's conductor_bsdf: n + ik per channel; no colours. The default is MaterialX's, gold.
+struct ConductorSurface
+{
+    ColorD n{0.183, 0.421, 1.373}, k{3.424, 2.346, 1.770};
+};
+
+/// MaterialX's dielectric_bsdf. eta: index inside over index outside.
+struct InterfaceSurface
+{
+    double eta = 1.5;
+    ScatterMode mode = ScatterMode::RT;
+    TransmissionShadowing shadowing = TransmissionShadowing::correlated;
+    ColorD tint{1.0};  ///< of what is reflected and what is transmitted, in [0, 1]
+};
+
+/// Burley's sheen alone: it has no microfacets. color: linear; weight in [0, 1].
+struct SheenSurface
+{
+    ColorD color{1.0};
+    double weight = 1;
+};
+
+enum class DistributionKind { ggx, beckmann, gtr, std };
+constexpr DistributionKind all_distributions[] = {DistributionKind::ggx, DistributionKind::beckmann,
+                                                  DistributionKind::gtr, DistributionKind::std};
+
+/// The name on command lines and in documents; and back.
+REGAIN_SHADERS_API std::string_view name(DistributionKind);
+REGAIN_SHADERS_API std::optional<DistributionKind> distribution_named(std::string_view);
+
+/// Whether the distribution has a tail parameter gamma.
+constexpr bool has_gamma(DistributionKind d)
+{
+    return d == DistributionKind::gtr || d == DistributionKind::std;
+}
+
+/// The random walk that replaces the lobe; walks that one eval takes.
+struct RandomWalk
+{
+    int eval_samples = 1;
+};
+
+/// Burley's 2015 addition to a lobe that is not compensated.
+struct BurleySheen
+{};
+
+/// Any method of compensation: a gain, an added lobe, a walk, a glow.
+using Compensation = std::variant<Method, KullaContyForm, RandomWalk, BurleySheen>;
+
+REGAIN_SHADERS_API std::string_view name(const Compensation&);
+REGAIN_SHADERS_API std::optional<Compensation> compensation_named(std::string_view);
+REGAIN_SHADERS_API const std::vector<std::string_view>& compensation_names();
+
+class MicrofacetMaterial
+{
+public:
+    std::variant<SchlickSurface, ConductorSurface, InterfaceSurface, SheenSurface> surface;
+    DistributionKind distribution = DistributionKind::ggx;
+    double gamma = 2;                       ///< of gtr and std
+    double alpha_x = 0.05, alpha_y = 0.05;  ///< microfacet widths in [0, 1]
+    Compensation method = Method::turquin;
+
+    MicrofacetMaterial() = default;
+    REGAIN_SHADERS_API MicrofacetMaterial(const SchlickMetal&);
+
+    bool is_interface() const { return std::holds_alternative<InterfaceSurface>(surface); }
+
+    /// Looks up the tables that the closure needs; call it again after a change. Throws
+    /// std::invalid_argument, which says what is wrong and what there is, where the library has no
+    /// such combination, and std::runtime_error where a table is missing.
+    REGAIN_SHADERS_API void bind_tables();
+
+    /// visit(closure); strength of the compensation in [0, 1]. Visit answers one type.
+    template <class Real, class Visit>
+    decltype(auto) with_closure(Real strength, const Visit& visit) const
+    {
+        switch (distribution)
+        {
+            case DistributionKind::beckmann: return with_closure_of<Beckmann>(strength, visit);
+            case DistributionKind::gtr: return with_closure_of<GTR>(strength, visit);
+            case DistributionKind::std: return with_closure_of<STD>(strength, visit);
+            case DistributionKind::ggx: break;
+        }
+        return with_closure_of<GGX>(strength, visit);
+    }
+
+    /// The same, if the distribution is this one.
+    template <template <class> class Distribution, class Real, class Visit>
+    decltype(auto) with_closure_of(Real strength, const Visit& visit) const
+    {
+        const auto distribution_of = [this] {
+            using D = Distribution<Real>;
+            if constexpr (D::has_tail)
+                return D(Real(alpha_x), Real(alpha_y), Real(gamma));
+            else
+                return D(Real(alpha_x), Real(alpha_y));
+        };
+        using Color = Color3<Real>;
+        if (const auto* s = std::get_if<SheenSurface>(&surface))
+            return visit(Sheen<Real>(Real(s->weight), Color(s->color)));
+        const auto d = distribution_of();
+        if (const auto* i = std::get_if<InterfaceSurface>(&surface))
+            return with_interface(Dielectric(d, Real(i->eta), i->mode, Color(i->tint),
+                                             Color(i->tint), i->shadowing, _interface_tables),
+                                  strength, visit);
+        if (const auto* c = std::get_if<ConductorSurface>(&surface))
+            return with_reflection(
+                MicrofacetReflection(d, ConductorFresnel<Real>(Color(c->n), Color(c->k)), _tables),
+                strength, visit);
+        const auto& s = std::get<SchlickSurface>(surface);
+        return with_reflection(
+            MicrofacetReflection(
+                d, SchlickFresnel<Real>(Color(s.F0), Color(s.F82), Color(s.F90), Real(s.exponent)),
+                _tables),
+            strength, visit);
+    }
+
+    const char* lobe_name() const
+    {
+        return is_interface()                                  ? "glass"
+               : std::holds_alternative<SheenSurface>(surface) ? "sheen"
+                                                               : "metal";
+    }
+
+private:
+    template <class Lobe, class Real, class Visit>
+    decltype(auto) with_reflection(const Lobe& lobe, Real strength, const Visit& visit) const
+    {
+        if (const auto* form = std::get_if<KullaContyForm>(&method))
+            return visit(kulla_conty(lobe, *form, _tables, strength));
+        if (const auto* walk = std::get_if<RandomWalk>(&method))
+            return visit(Walk(lobe.distribution(), lobe.fresnel(), walk->eval_samples, _tables));
+        if (std::holds_alternative<BurleySheen>(method)) return visit(burley_sheen(lobe, strength));
+        return visit(compensated(lobe, std::get<Method>(method), _tables, strength));
+    }
+
+    template <class Lobe, class Real, class Visit>
+    decltype(auto) with_interface(const Lobe& lobe, Real, const Visit& visit) const
+    {
+        if (const auto* walk = std::get_if<RandomWalk>(&method))
+            return visit(DielectricWalk(lobe.distribution(), lobe.eta(), lobe.reflection_tint(),
+                                        lobe.transmission_tint(), walk->eval_samples));
+        return visit(lobe);
+    }
+
+    MicrofacetTables _tables;
+    DielectricTables _interface_tables;
+};
+
+}  // namespace shaders
+REGAIN_NAMESPACE_END

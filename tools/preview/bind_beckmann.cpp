@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+#include "bind_distribution.h"
+
+#include <regain/closures/beckmann.h>
+
+namespace regain::tools::preview {
+
+std::unique_ptr<BoundMaterial> bind_beckmann(const shaders::MicrofacetMaterial& material)
+{
+    return std::make_unique<BoundTo<Beckmann>>(material);
+}
+
+}  // namespace regain::tools::preview

@@ -317,9 +317,11 @@ public:
         {}
 
     private:
+        // A sample of the lobe is worth about 1 or nothing, so its second moment is its albedo. In
+        // proportion to albedos the largest weight would be 1 / E^S, 7 where this has 3.
         Prepared(const DielectricKullaConty& closure, const typename Lobe::Prepared& lobe,
                  const typename Added::Prepared& added)
-            : Mixture::Prepared(lobe, added, closure._likely * (Real(1) - added.loss()),
+            : Mixture::Prepared(lobe, added, closure._likely * detail::sqrt(Real(1) - added.loss()),
                                 total(added.albedo().reflect) + total(added.albedo().transmit))
         {}
     };

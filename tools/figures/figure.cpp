@@ -13,8 +13,15 @@ namespace regain::tools::figures {
 const std::vector<Maker>& makers()
 {
     static const std::vector<Maker> all = {
+        {"1", "rough gold without and with compensation", make_figure1},
+        {"2", "white furnace rows of four distributions", make_figure2},
+        {"3", "Burley's sheen from 0 to 1", make_figure3},
+        {"4", "lobes of the first, second and later bounces", make_figure4},
         {"5", "E_ss of the microfacet models, as tables", make_figure5},
+        {"6", "rough gold: nothing, energy alone, energy and colour", make_figure6},
         {"7", "F_ms over F_ss, and the depth of the random walk", make_figure7},
+        {"8", "rough glass without and with compensation", make_figure8},
+        {"9", "no compensation, ours, random walk; metal and glass", make_figure9},
         {"table1", "every method: errors, shape, reciprocity, noise, time, tables", make_table1},
     };
     return all;

@@ -75,9 +75,15 @@ struct Maker
 /// All of them, in the paper's order.
 const std::vector<Maker>& makers();
 
+Figure make_figure1(const Request&);
+Figure make_figure2(const Request&);
+Figure make_figure3(const Request&);
 Figure make_figure4(const Request&);
 Figure make_figure5(const Request&);
+Figure make_figure6(const Request&);
 Figure make_figure7(const Request&);
+Figure make_figure8(const Request&);
+Figure make_figure9(const Request&);
 Figure make_table1(const Request&);
 
 /// Agrees where `holds`.

@@ -9,7 +9,7 @@ namespace regain::tools::preview {
 
 std::unique_ptr<BoundMaterial> bind_beckmann(const shaders::MicrofacetMaterial& material)
 {
-    return std::make_unique<BoundTo<Beckmann>>(material);
+    return std::make_unique<BoundAs<MaterialOf<Beckmann>>>(MaterialOf<Beckmann>{material});
 }
 
 }  // namespace regain::tools::preview

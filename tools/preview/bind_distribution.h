@@ -2,7 +2,7 @@
 // Copyright Contributors to the Regain project
 
 /// @file
-/// A BoundMaterial of one distribution: for the files that compile one each.
+/// A BoundMaterial of one type of material: for the files that compile one each.
 
 #pragma once
 
@@ -13,30 +13,33 @@
 
 namespace regain::tools::preview {
 
-template <template <class> class Distribution>
-class BoundTo final : public BoundMaterial
+/// Any material that the adapters take.
+template <class Material>
+class BoundAs final : public BoundMaterial
 {
 public:
-    explicit BoundTo(const shaders::MicrofacetMaterial& material) : _material{material} {}
+    explicit BoundAs(const Material& material) : _material(material) {}
     GridMaterial grid() override { return {&_factory, &_material}; }
     PointMaterial point() override { return {&_callbacks, &_material}; }
 
 private:
-    struct Material
-    {
-        shaders::MicrofacetMaterial value;
-
-        template <class Real, class Visit>
-        decltype(auto) with_closure(Real strength, const Visit& visit) const
-        {
-            return value.with_closure_of<Distribution>(strength, visit);
-        }
-        const char* lobe_name() const { return value.lobe_name(); }
-    };
-
     Material _material;
     renderman::ClosureFactory<Material> _factory;
     clarisse::material_callbacks<float> _callbacks = clarisse::closure_callbacks<Material, float>();
+};
+
+/// A MicrofacetMaterial of this distribution.
+template <template <class> class Distribution>
+struct MaterialOf
+{
+    shaders::MicrofacetMaterial value;
+
+    template <class Real, class Visit>
+    decltype(auto) with_closure(Real strength, const Visit& visit) const
+    {
+        return value.with_closure_of<Distribution>(strength, visit);
+    }
+    const char* lobe_name() const { return value.lobe_name(); }
 };
 
 }  // namespace regain::tools::preview

@@ -9,7 +9,7 @@ namespace regain::tools::preview {
 
 std::unique_ptr<BoundMaterial> bind_ggx(const shaders::MicrofacetMaterial& material)
 {
-    return std::make_unique<BoundTo<GGX>>(material);
+    return std::make_unique<BoundAs<MaterialOf<GGX>>>(MaterialOf<GGX>{material});
 }
 
 }  // namespace regain::tools::preview

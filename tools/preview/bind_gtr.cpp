@@ -9,7 +9,7 @@ namespace regain::tools::preview {
 
 std::unique_ptr<BoundMaterial> bind_gtr(const shaders::MicrofacetMaterial& material)
 {
-    return std::make_unique<BoundTo<GTR>>(material);
+    return std::make_unique<BoundAs<MaterialOf<GTR>>>(MaterialOf<GTR>{material});
 }
 
 }  // namespace regain::tools::preview

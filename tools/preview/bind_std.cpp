@@ -9,7 +9,7 @@ namespace regain::tools::preview {
 
 std::unique_ptr<BoundMaterial> bind_std(const shaders::MicrofacetMaterial& material)
 {
-    return std::make_unique<BoundTo<STD>>(material);
+    return std::make_unique<BoundAs<MaterialOf<STD>>>(MaterialOf<STD>{material});
 }
 
 }  // namespace regain::tools::preview

@@ -96,14 +96,31 @@ std::unique_ptr<BoundMaterial> bind(const MicrofacetMaterial& material)
     return bind_ggx(material);
 }
 
-RowIntegrator::RowIntegrator(Host host, const World& world,
-                             const std::vector<MicrofacetMaterial>& materials)
+namespace {
+
+std::vector<std::unique_ptr<BoundMaterial>> with_tables(
+    const std::vector<MicrofacetMaterial>& materials)
 {
+    std::vector<std::unique_ptr<BoundMaterial>> bound;
     for (MicrofacetMaterial material : materials)
     {
         material.bind_tables();
-        _materials.push_back(bind(material));
+        bound.push_back(bind(material));
     }
+    return bound;
+}
+
+}  // namespace
+
+RowIntegrator::RowIntegrator(Host host, const World& world,
+                             const std::vector<MicrofacetMaterial>& materials)
+    : RowIntegrator(host, world, with_tables(materials))
+{}
+
+RowIntegrator::RowIntegrator(Host host, const World& world,
+                             std::vector<std::unique_ptr<BoundMaterial>> materials)
+    : _materials(std::move(materials))
+{
     if (host == Host::renderman)
     {
         std::vector<GridMaterial> bound;

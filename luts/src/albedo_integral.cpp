@@ -2,12 +2,11 @@
 // Copyright Contributors to the Regain project
 
 #include <regain/luts/albedo_integral.h>
-#include <regain/luts/quadrature.h>
+
+#include "rules.h"
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <mutex>
 
 REGAIN_NAMESPACE_BEGIN
 namespace luts {
@@ -15,91 +14,103 @@ namespace {
 
 const double pi = std::acos(-1.0);
 
-// Rules are asked for again and again in the same few sizes.
-const QuadratureRule& rule_of(int n)
+// Integrates over all slopes that reflect upwards; `add` is given the weight of one of them, in
+// units of the albedo, and wo.m.
+template <class Add>
+void integrate(const SlopeLaw& law, double mu, int nodes, const Add& add)
 {
-    static std::mutex mutex;
-    static std::map<int, QuadratureRule> rules;
-    const std::lock_guard<std::mutex> lock(mutex);
-    const auto at = rules.find(n);
-    return at != rules.end() ? at->second : rules.emplace(n, gauss_legendre(n)).first->second;
-}
-
-// sigma(w) = cos theta (1 + Lambda), finite at grazing angles.
-double projected_area(double cos_theta, double alpha)
-{
-    const double sin2 = std::max(0.0, 1 - cos_theta * cos_theta);
-    return 0.5 * (cos_theta + std::sqrt(cos_theta * cos_theta + alpha * alpha * sin2));
-}
-
-}  // namespace
-
-double ggx_albedo(double mu, double alpha, const std::function<double(double)>& fresnel,
-                  AlbedoAccuracy accuracy)
-{
-    const QuadratureRule& rule = rule_of(accuracy.nodes);
+    const QuadratureRule& rule = rule_of(nodes);
+    const double alpha = law.alpha();
     const double sin_o = std::sqrt(std::max(0.0, (1 - mu) * (1 + mu)));
-    const double tan_o = sin_o / mu, sigma_o = projected_area(mu, alpha);
+    const double tan_o = sin_o / mu, sigma_o = law.projected_area(mu);
 
-    // One slope: the integrand over P22 dp dq. The factor 1 / cos theta_o is merged with G2, whose
-    // numerator has it too.
-    const auto integrand = [&](double p, double rho) {
+    // One slope of length rho and its component p along wo: its share of the integrand over
+    // P22 dp dq. The factor 1 / cos theta_o is merged with G2, whose numerator has it too.
+    const auto slope = [&](double p, double rho, double area) {
         const double facing = mu + sin_o * p;  // wo.m sqrt(1 + rho^2)
         const double scale = 1 / (1 + rho * rho);
         const double mu_i = 2 * facing * scale - mu;
-        if (facing <= 0 || mu_i <= 0) return 0.0;
-        const double sigma_i = projected_area(mu_i, alpha);
-        const double value = facing * mu_i / (sigma_o * mu_i + sigma_i * mu - mu * mu_i);
-        return fresnel ? value * fresnel(facing * std::sqrt(scale)) : value;
+        if (facing <= 0 || mu_i <= 0) return;
+        const double sigma_i = law.projected_area(std::min(mu_i, 1.0));
+        add(area * law.density(rho) * facing * mu_i / (sigma_o * mu_i + sigma_i * mu - mu * mu_i),
+            facing * std::sqrt(scale));
     };
 
-    // Radially, with w = alpha / rho, P22 rho drho = 2 w / (1 + w^2)^2 dw / (2 pi). Inside a slope
-    // of alpha the reciprocal of w serves, in which the integrand is smooth at the origin; outside
-    // it w itself, in which the tail times the growing wo.m is smooth.
-    const auto along = [&](double phi) {
+    // Radially: inside a slope of alpha the slope itself serves, in which the integrand is smooth
+    // at the origin. Outside it the reciprocal, in which the tail times the growing wo.m is smooth.
+    // A heavy tail matters at slopes of 1, too: between alpha and 1 its logarithm serves.
+    const double bend = law.heavy_tailed() ? 1.0 : alpha;
+    const auto along = [&](double phi, double dphi) {
         const double c = std::cos(phi), b = tan_o * c;
         // The far root of rho^2 - 2 b rho - 1 = 0, in the form that does not cancel.
         const double root = std::sqrt(b * b + 1);
-        const double rho_max = b > 0 ? b + root : 1 / (root - b);
-        const double inner = std::min(rho_max / alpha, 1.0), outer = alpha / rho_max;
-        double sum = 0;
+        const double edge = std::min(b > 0 ? b + root : 1 / (root - b), law.longest());
         for (std::size_t i = 0; i < rule.x.size(); ++i)
         {
             // Nodes gather at the edge, where light leaves at grazing angles.
             const double x = rule.x[i], near_edge = x * x * x, d_near_edge = 3 * x * x;
-            if (outer < 1)
+            const double weight = rule.weight[i] * dphi;
+            const auto at = [&](double rho, double drho) {
+                slope(rho * c, rho, weight * drho * rho);
+            };
+            if (edge <= alpha)
             {
-                const double r = x, q = 1 + r * r;
-                sum += rule.weight[i] * 2 * r / (q * q) * integrand(alpha * r * c, alpha * r);
-                const double w = outer + (1 - outer) * near_edge, k = 1 + w * w;
-                sum += rule.weight[i] * (1 - outer) * d_near_edge * 2 * w / (k * k) *
-                       integrand(alpha / w * c, alpha / w);
+                at(edge * (1 - near_edge), edge * d_near_edge);
+                continue;
             }
-            else
+            at(alpha * x, alpha);
+            if (bend > alpha)
             {
-                const double r = inner * (1 - near_edge), q = 1 + r * r;
-                sum += rule.weight[i] * inner * d_near_edge * 2 * r / (q * q) *
-                       integrand(alpha * r * c, alpha * r);
+                const double range = std::log(std::min(edge, bend) / alpha);
+                const bool last = edge <= bend;
+                const double rho = alpha * std::exp(range * (last ? 1 - near_edge : x));
+                at(rho, rho * range * (last ? d_near_edge : 1));
+            }
+            if (edge > bend)
+            {
+                const double outer = bend / edge;
+                const double w = outer + (1 - outer) * near_edge;
+                at(bend / w, (1 - outer) * d_near_edge * bend / (w * w));
             }
         }
-        return sum;
     };
 
-    // Over the half circle, nodes gathered about pi / 2, where at grazing angles the edge comes in
-    // from far away.
-    double sum = 0;
+    // Over the half circle, which stands for both, nodes gathered about pi / 2, where at grazing
+    // angles the edge comes in from far away.
     for (int side = 0; side < 2; ++side)
         for (std::size_t j = 0; j < rule.x.size(); ++j)
         {
             const double x = rule.x[j];
             const double offset = 0.5 * pi * x * x * x, dphi = 0.5 * pi * 3 * x * x;
-            sum += rule.weight[j] * dphi * along(0.5 * pi + (side == 0 ? -offset : offset));
+            along(0.5 * pi + (side == 0 ? -offset : offset), 2 * rule.weight[j] * dphi);
         }
-    // The integrand still lacks the 2 / (2 pi) of the half circle.
-    return std::min(1.0, sum / pi);
 }
 
-double ggx_average_albedo(double alpha, AlbedoAccuracy accuracy)
+}  // namespace
+
+double albedo(const SlopeLaw& law, double mu, const std::function<double(double)>& fresnel,
+              AlbedoAccuracy accuracy)
+{
+    double sum = 0;
+    integrate(law, mu, accuracy.nodes, [&](double weight, double cosine) {
+        sum += fresnel ? weight * fresnel(cosine) : weight;
+    });
+    return std::min(1.0, sum);
+}
+
+AlbedoMoments albedo_moments(const SlopeLaw& law, double mu, AlbedoAccuracy accuracy)
+{
+    AlbedoMoments sum{0, 0, 0};
+    integrate(law, mu, accuracy.nodes, [&](double weight, double cosine) {
+        const double x = 1 - cosine, x2 = x * x, x4 = x2 * x2;
+        sum.E_ss += weight;
+        sum.falloff += weight * x4 * x;
+        sum.dip += weight * x4 * x2 * cosine;
+    });
+    return {std::min(1.0, sum.E_ss), sum.falloff / sum.E_ss, sum.dip / sum.E_ss};
+}
+
+double average_albedo(const SlopeLaw& law, AlbedoAccuracy accuracy)
 {
     // mu = x^3 gathers nodes at grazing angles, where E_ss dips over a width of alpha.
     const QuadratureRule& rule = rule_of(accuracy.nodes);
@@ -107,9 +118,20 @@ double ggx_average_albedo(double alpha, AlbedoAccuracy accuracy)
     for (std::size_t i = 0; i < rule.x.size(); ++i)
     {
         const double x = rule.x[i], mu = x * x * x;
-        sum += rule.weight[i] * 3 * x * x * 2 * mu * ggx_albedo(mu, alpha, {}, accuracy);
+        sum += rule.weight[i] * 3 * x * x * 2 * mu * albedo(law, mu, {}, accuracy);
     }
     return sum;
+}
+
+double ggx_albedo(double mu, double alpha, const std::function<double(double)>& fresnel,
+                  AlbedoAccuracy accuracy)
+{
+    return albedo(SlopeLaw::ggx(alpha), mu, fresnel, accuracy);
+}
+
+double ggx_average_albedo(double alpha, AlbedoAccuracy accuracy)
+{
+    return average_albedo(SlopeLaw::ggx(alpha), accuracy);
 }
 
 }  // namespace luts

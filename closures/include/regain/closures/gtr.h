@@ -6,7 +6,7 @@
 /// and shadowing, both exact for every gamma:
 ///
 ///   D(m) = (gamma-1) (alpha^2-1) / (pi (1 - alpha^(2 (1-gamma)))) (1 + (alpha^2-1) cos^2)^(-gamma)
-///          Burley 2012, B.2, Eq. 4; gamma = 1: (alpha^2-1) / (pi ln alpha^2) / (1 + ...), Eq. 5
+///          Burley 2012, appendix B; gamma = 1: (alpha^2-1) / (pi ln alpha^2) / (1 + ...)
 ///
 /// gamma = 2 is GGX; a smaller gamma has longer tails; at alpha = 1 every gamma is GGX. The slopes
 /// have the density c (1 + rho)^(gamma-2) (alpha^2 + rho)^(-gamma), rho = slope^2. That is no
@@ -115,7 +115,7 @@ public:
 
             Vec3<Real> n(Real(0), Real(0), Real(1));
             Mask done(false);
-            // A try fails once in 500 times; after eight the last normal is taken.
+            // A try fails once in 2500 times; after eight the last normal is taken.
             for (int attempt = 0; attempt < 8; ++attempt)
             {
                 const Real threshold = stream.next(), order = stream.next();
@@ -151,8 +151,8 @@ public:
             const Real inv_s = Real(1) / detail::select(upright, Real(1), s);
             const Real x = detail::select(upright, Real(1), _v.x * inv_s),
                        y = detail::select(upright, Real(0), _v.y * inv_s);
-            const Vec3<Real> h = detail::student_visible(term.order, term.cap, alpha * s / q,
-                                                         _v.z / q, Vec2<Real>(u.x, u.y), stream);
+            const Vec3<Real> h = detail::student_visible(term.order, alpha * s / q, _v.z / q,
+                                                         Vec2<Real>(u.x, u.y), stream);
             const Vec3<Real> m(alpha * (h.x * x - h.y * y), alpha * (h.x * y + h.y * x),
                                detail::max(h.z, constant(1e-9)));
             return detail::select(_gtr._gamma > Real(2), detail::normalised(m), of_ggx);

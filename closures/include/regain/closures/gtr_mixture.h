@@ -22,11 +22,11 @@
 /// s^(2-delta) / ((1 + s) (1 + beta s)) times a function of t is analytic for |Im log s| < pi for
 /// every direction and slope, so the error falls like exp(-2 pi^2 / step). The tails of the sum,
 /// endless where gamma is near 0 or delta is, are geometric series: one node takes the mass and the
-/// mean of each. Against quadrature in long double, alpha from 1e-5 to 1, every direction, the
-/// areas are right to 1e-5 (float) and 2e-9 (double), relative; so is the sum's D.
+/// mean of each. Against quadrature in long double the areas are right to 1e-5 (float) and 2e-9
+/// (double), relative, for every alpha, gamma and direction.
 ///
-/// Nodes: at alpha 1, 0.1, 0.01, 0.001 float has 9, 12, 16, 20 for gamma < 2, and up to 16, 22,
-/// 29, 38 above; double some two times as many.
+/// Nodes at alpha 1, 0.1, 0.01, 0.001: 9, 13, 16, 20 for gamma < 2, at most 18, 25, 32, 38 above
+/// (float); 25, 31, 37, 43 and 50, 61, 72, 83 (double).
 
 #pragma once
 
@@ -47,14 +47,15 @@ public:
     static constexpr double step = single ? 1.25 : 0.75, reach = single ? 3.5 : 8;
     /// Room for all nodes at the smallest alpha there is.
     static constexpr int max_nodes = single ? 56 : 160;
-    /// D of the mixture is D of GTR within this, relative: ten times what was measured, and more
-    /// than what rounding adds.
-    static constexpr double tolerance = single ? 1e-3 : 1e-6;
+    /// D of the mixture is D of GTR within this, relative; measured, rounding included: 1.3e-5 and
+    /// 1e-9, over all alpha and gamma.
+    static constexpr double tolerance = single ? 2e-4 : 1e-7;
 
-    /// One term of the mixture: the Student law of order j (0: GGX) and square width t.
+    /// One term of the mixture: the Student law of this order (0: GGX) and square width t.
     struct Term
     {
-        Real t, order, cap;  // cap = student.cap[order]
+        Real t;
+        StudentOrder<Real> order;
     };
 
     /// beta = alpha^2 in (0, 1], its logarithm, gamma in (0, 10].
@@ -149,7 +150,7 @@ public:
         const Real above = detail::max(c, Real(0)), height = detail::abs(c);
         const Real target = x * area;
         Real sum(0), xi = _xi[0];
-        Term term{_t[0], Real(0), constant<Real>(student.cap[0])};
+        Term term{_t[0], {Real(0), constant<Real>(student.cap[0])}};
         for (int i = 0; i < _nodes; ++i)
         {
             const MaskOf<Real> reached = sum <= target;
@@ -157,35 +158,9 @@ public:
             xi = select(reached, _xi[i], xi);
             sum += _weight[i] * (above * orders_mass(i) + Real(0.5f) * length_below(i, height, s2));
         }
-        if (_orders == 0) return term;
-
-        // Areas of all orders at this t, from the largest down: R_(j-1) = R_j + b_j z^j.
-        const Real q = detail::sqrt(height * height + term.t * s2);
-        const Real e = height / q, d = term.t * s2 / (q * (q + height)), z = d * (Real(1) + e);
-        Real areas[student_orders], powers[student_orders];
-        powers[0] = Real(1);
-        for (int j = 1; j <= _orders; ++j) powers[j] = powers[j - 1] * z;
-        Real R = student_remainder(_orders, e, d), total(0), x_power(1);
-        for (int j = _orders; j >= 0; --j)
-        {
-            areas[j] = above + Real(0.5f) * q * R;
-            R += constant<Real>(student.b[j]) * powers[j];
-        }
-        for (int j = 0; j <= _orders; ++j)
-        {
-            areas[j] *= _order[j] * x_power;
-            total += areas[j];
-            x_power *= xi;
-        }
-        sum = Real(0);
-        for (int j = 0; j <= _orders; ++j)
-        {
-            // An order that this lane does not have is not selected by rounding, either.
-            const MaskOf<Real> reached = both<Real>(sum <= y * total, _order[j] > Real(0));
-            term.order = select(reached, constant<Real>(j), term.order);
-            term.cap = select(reached, constant<Real>(student.cap[j]), term.cap);
-            sum += areas[j];
-        }
+        if (_orders > 0)
+            term.order =
+                student_order(StudentView<Real>(term.t, height, s2), above, _order, xi, _orders, y);
         return term;
     }
 
@@ -268,19 +243,21 @@ private:
     // R_j = R_m + b_(j+1) z^(j+1) + ... + b_m z^m.
     Real length_below(int i, const Real& c, const Real& s2) const
     {
-        const Real tangential2 = _t[i] * s2, q = detail::sqrt(c * c + tangential2);
-        if (_orders == 0) return _order[0] * tangential2 / (q + c);
-
-        const Real e = c / q, d = tangential2 / (q * (q + c)), z = d * (Real(1) + e);
+        if (_orders == 0)
+        {
+            const Real tangential2 = _t[i] * s2;
+            return _order[0] * tangential2 / (detail::sqrt(c * c + tangential2) + c);
+        }
+        const StudentView<Real> view(_t[i], c, s2);
         Real mass = _order[0], x(1), power(1), sum(0);
         for (int k = 1; k <= _orders; ++k)
         {
-            power *= z;
+            power *= view.z;
             sum += constant<Real>(student.b[k]) * power * mass;
             x *= _xi[i];
             mass += _order[k] * x;
         }
-        return q * (sum + mass * student_remainder(_orders, e, d));
+        return view.q * (sum + mass * view.remainder(_orders));
     }
 
     Real _weight[max_nodes], _t[max_nodes], _xi[max_nodes];

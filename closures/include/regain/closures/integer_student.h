@@ -66,14 +66,72 @@ constexpr StudentSeries student_series()
 
 inline constexpr StudentSeries student = student_series();
 
-/// R_j of the direction with e = c / q, by d = 1 - e.
+/// A direction (s, 0, c), c >= 0, from where the Student laws of square width t are a hemisphere.
 template <class Real>
-Real student_remainder(int j, const Real& e, const Real& d)
+struct StudentView
 {
-    Real T = constant<Real>(student.T[j][j > 0 ? j - 1 : 0]), power = d;
-    for (int k = j - 2; k >= 0; --k) T = T * e + constant<Real>(student.T[j][k]);
-    for (int k = 0; k < j; ++k) power *= d;
-    return power * T;
+    Real q, e, d, z;  // as above, and d = 1 - e
+
+    StudentView(const Real& t, const Real& c, const Real& s2)
+    {
+        const Real tangential2 = t * s2;
+        q = detail::sqrt(c * c + tangential2);
+        e = c / q;
+        d = tangential2 / (q * (q + c));
+        z = d * (Real(1) + e);
+    }
+
+    /// R_j.
+    Real remainder(int j) const
+    {
+        Real T = constant<Real>(student.T[j][j > 0 ? j - 1 : 0]), power = d;
+        for (int k = j - 2; k >= 0; --k) T = T * e + constant<Real>(student.T[j][k]);
+        for (int k = 0; k < j; ++k) power *= d;
+        return power * T;
+    }
+};
+
+/// Which order of a sum of Student laws of one width: j, and student.cap[j].
+template <class Real>
+struct StudentOrder
+{
+    Real j, cap;
+};
+
+/// The order j <= last, with the probability of its share in the area that the direction sees;
+/// weight[j] xi^j is its share in the sum, above = c for directions seen from above, else 0.
+template <class Real>
+StudentOrder<Real> student_order(const StudentView<Real>& view, const Real& above,
+                                 const Real* weight, const Real& xi, int last, const Real& u)
+{
+    Real area[student_orders], power[student_orders];
+    power[0] = Real(1);
+    for (int j = 1; j <= last; ++j) power[j] = power[j - 1] * view.z;
+    // From the last down: R_(j-1) = R_j + b_j z^j.
+    Real R = view.remainder(last);
+    for (int j = last; j >= 0; --j)
+    {
+        area[j] = above + Real(0.5f) * view.q * R;
+        R += constant<Real>(student.b[j]) * power[j];
+    }
+    Real total(0), xi_power(1);
+    for (int j = 0; j <= last; ++j)
+    {
+        area[j] *= weight[j] * xi_power;
+        total += area[j];
+        xi_power *= xi;
+    }
+    StudentOrder<Real> order{Real(0), constant<Real>(student.cap[0])};
+    Real sum(0);
+    for (int j = 0; j <= last; ++j)
+    {
+        // Rounding must not select an order whose weight is 0.
+        const MaskOf<Real> reached = both<Real>(sum <= u * total, weight[j] > Real(0));
+        order.j = select(reached, constant<Real>(j), order.j);
+        order.cap = select(reached, constant<Real>(student.cap[j]), order.cap);
+        sum += area[j];
+    }
+    return order;
 }
 
 /// x^(1 / k) for x in [0, 1], k > 0.
@@ -84,13 +142,15 @@ Real root(const Real& x, const Real& k)
 }
 
 /// A visible normal of the hemisphere with the density h_z^(2j), seen along the unit vector
-/// (v_x, 0, v_z), v_x >= 0; cap = student.cap[j]. Reads u.x, u.y and the stream. Of the proposals
-/// for zeta at least two in five are accepted, whatever the direction; after 64 failures (a chance
-/// below 1e-14) the last is taken as it is, which is a normal like any other.
+/// (v_x, 0, v_z), v_x >= 0. Reads u.x, u.y and the stream. Of the proposals
+/// for zeta more than a third are accepted, whatever the direction, from above more than two
+/// thirds; after 64 failures (a chance of 1e-12) the last is taken as it is, a normal like any
+/// other.
 template <class Real>
-Vec3<Real> student_visible(const Real& j, const Real& cap, const Real& v_x, const Real& v_z,
+Vec3<Real> student_visible(const StudentOrder<Real>& order, const Real& v_x, const Real& v_z,
                            const Vec2<Real>& u, RandomStream<Real>& stream)
 {
+    const Real j = order.j, cap = order.cap;
     const Real zero(0), one(1), tiny = constant<Real>(1e-30);
     const Real two_pi = constant<Real>(6.28318530717958647692);
     const MaskOf<Real> below = v_z < zero;

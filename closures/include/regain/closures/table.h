@@ -9,8 +9,15 @@
 /// axis is stretched by alpha:
 ///     x = sqrt(mu / (mu + alpha (1 - mu)))   in [0, 1]
 ///     y = sqrt(alpha)                        in [0, 1]
-/// with mu = |cos theta_o| in [0, 1], alpha in [0, 1]. A distribution with a tail parameter gamma
-/// has a third axis z in [0, 1], its tail(): see distribution.h.
+/// with mu = |cos theta_o| in [0, 1], alpha in [0, 1].
+///
+/// A distribution with a tail parameter gamma has a third axis z in [0, 1], its tail(): see
+/// distribution.h and tail.h. Its tail matters at slopes of 1 whatever alpha is, and near normal
+/// incidence its E_ss is linear in theta, not mu. So the other two axes are logarithms, with a
+/// linear part that holds the nodes together where the logarithm is flat:
+///     x = 3/4 (1 + ln((k + s) / (1 + s)) / ln(1 / k)) + 1/4 s / (1 + s),
+///                                            s = cot theta_o, k = 0.004 sqrt(alpha)
+///     y = 0.7 ln(1 + 1000 alpha) / ln 1001 + 0.3 alpha
 
 #pragma once
 
@@ -25,6 +32,23 @@ template <class Real>
 Real stretched_cosine(Real mu, Real alpha)
 {
     return detail::sqrt(mu / (mu + alpha * (Real(1) - mu)));
+}
+
+/// x and y above of distributions with a tail; mu in [0, 1], alpha in (0, 1].
+template <class Real>
+Real tail_cosine(Real mu, Real alpha)
+{
+    const Real s = mu, c = detail::sqrt(detail::max((Real(1) - mu) * (Real(1) + mu), Real(0)));
+    const Real k = detail::constant<Real>(0.004) * detail::sqrt(alpha), scale = Real(1) / (s + c);
+    const Real l = Real(1) - detail::log((k * c + s) * scale) / detail::log(k);
+    return detail::saturate(Real(0.75f) * l + Real(0.25f) * s * scale);
+}
+template <class Real>
+Real tail_width(Real alpha)
+{
+    return detail::saturate(detail::constant<Real>(0.7 / 6.9087547793152205) *
+                                detail::log(Real(1) + Real(1000) * alpha) +
+                            detail::constant<Real>(0.3) * alpha);
 }
 
 /// A table of `width` x `height` x `depth` 16-bit numbers, x fastest; an axis that is not there has
@@ -113,7 +137,7 @@ public:
     template <class Distribution>
     explicit TableAxes(const Distribution& distribution)
         : _alpha(distribution.effective_alpha()),
-          _sqrt_alpha(detail::sqrt(_alpha)),
+          _width(Distribution::has_tail ? tail_width(_alpha) : detail::sqrt(_alpha)),
           _tail(detail::tail_of(distribution)),
           _has_tail(Distribution::has_tail)
     {}
@@ -123,16 +147,16 @@ public:
     /// mu in [0, 1].
     Real directional(const TableView& table, Real mu) const
     {
-        const Real x = stretched_cosine(mu, _alpha);
-        return _has_tail ? table.at(x, _sqrt_alpha, _tail) : table.at(x, _sqrt_alpha);
+        return _has_tail ? table.at(tail_cosine(mu, _alpha), _width, _tail)
+                         : table.at(stretched_cosine(mu, _alpha), _width);
     }
     Real average(const TableView& table) const
     {
-        return _has_tail ? table.at(_sqrt_alpha, _tail) : table.at(_sqrt_alpha);
+        return _has_tail ? table.at(_width, _tail) : table.at(_width);
     }
 
 private:
-    Real _alpha, _sqrt_alpha, _tail;
+    Real _alpha, _width, _tail;
     bool _has_tail;
 };
 

@@ -3,8 +3,15 @@
 
 /// @file
 /// The tail parameter gamma of the distributions that have one, as a coordinate in [0, 1] along the
-/// third axis of their tables. 1 - E_ss has to be close to linear in it, so that a table of 32
-/// nodes interpolates well. Each map is smooth, grows with gamma, and has its inverse next to it.
+/// third axis of their tables:
+///
+///   GTR   f = 1.67 ln(1 + g / 1.33) + 0.7 S((g - 1.25) / 0.5),  S(t) = t / sqrt(1 + t^2)
+///   STD   f = ln(u / (u + 4)),  u = g - 1.5
+///
+/// each scaled to [0, 1] over its range. The slope of f is close to the root of what E_ss bends by,
+/// |d^2 E_ss / dg^2| / E_ss at its largest over alpha in [1e-3, 1] and mu, which spreads the error
+/// of interpolation evenly. GTR's bump is where its weight moves from slopes of 1 to slopes of
+/// alpha, between gamma 1 and 1.5. Each map grows with gamma, and has its inverse next to it.
 ///
 /// gamma: without unit; outside its range it is clamped. Coordinates outside [0, 1] are, too.
 
@@ -23,28 +30,32 @@ constexpr double std_min_gamma = 1.51, std_max_gamma = 100;
 
 namespace detail {
 
-// Where gtr_tail and std_tail spend half of their nodes: the half-way gamma is about this much
-// above the smallest.
-constexpr double gtr_tail_scale = 2.5, std_tail_scale = 0.5;
+template <class Real>
+Real gtr_tail_position(const Real& gamma)
+{
+    const Real t = (gamma - constant<Real>(1.25)) * Real(2);
+    return constant<Real>(1.67) * log(Real(1) + gamma * constant<Real>(1 / 1.33)) +
+           constant<Real>(0.7) * t / sqrt(Real(1) + t * t);
+}
+template <class Real>
+Real std_tail_position(const Real& gamma)
+{
+    const Real u = gamma - constant<Real>(1.5);
+    return log(u / (u + Real(4)));
+}
 
-/// t = (1 + s) x / (x + s) of the position x in [0, 1] of gamma in its range: monotone, dense where
-/// x < s.
+/// A position that lies at `lowest` to `highest`, scaled to [0, 1].
 template <class Real>
-Real tail_coordinate(const Real& gamma, double lo, double hi, double scale)
+Real tail_coordinate(const Real& position, double lowest, double highest)
 {
-    const double s = scale / (hi - lo);
-    const Real x =
-        constant<Real>(1 / (hi - lo)) * (sanitised(gamma, lo, hi, 2) - constant<Real>(lo));
-    return min(constant<Real>(1 + s) * x / (x + constant<Real>(s)), Real(1));
+    return saturate((position - constant<Real>(lowest)) * constant<Real>(1 / (highest - lowest)));
 }
-template <class Real>
-Real tail_gamma(const Real& coordinate, double lo, double hi, double scale)
-{
-    const double s = scale / (hi - lo);
-    const Real t = saturate(coordinate);
-    const Real x = constant<Real>(s) * t / (constant<Real>(1 + s) - t);
-    return min(constant<Real>(lo) + constant<Real>(hi - lo) * x, constant<Real>(hi));
-}
+
+// Of the limits of gamma.
+constexpr double gtr_lowest_position = -0.6486067252546112,
+                 gtr_highest_position = 4.276459405883225;
+constexpr double std_lowest_position = -5.9939614273065684,
+                 std_highest_position = -0.039806250400419706;
 
 }  // namespace detail
 
@@ -52,26 +63,46 @@ Real tail_gamma(const Real& coordinate, double lo, double hi, double scale)
 template <class Real>
 Real gtr_tail(const Real& gamma)
 {
-    return detail::tail_coordinate(gamma, gtr_min_gamma, gtr_max_gamma, detail::gtr_tail_scale);
+    const Real g = detail::sanitised(gamma, gtr_min_gamma, gtr_max_gamma, 2);
+    return detail::tail_coordinate(detail::gtr_tail_position(g), detail::gtr_lowest_position,
+                                   detail::gtr_highest_position);
 }
-/// The inverse of gtr_tail.
+/// The inverse of gtr_tail, by bisection.
 template <class Real>
 Real gtr_gamma(const Real& coordinate)
 {
-    return detail::tail_gamma(coordinate, gtr_min_gamma, gtr_max_gamma, detail::gtr_tail_scale);
+    using namespace detail;
+    const Real wanted = saturate(coordinate);
+    Real low = constant<Real>(gtr_min_gamma), high = constant<Real>(gtr_max_gamma);
+    for (int i = 0; i < 60; ++i)
+    {
+        const Real middle = Real(0.5f) * (low + high);
+        const MaskOf<Real> below = gtr_tail(middle) < wanted;
+        low = select(below, middle, low);
+        high = select(below, high, middle);
+    }
+    return Real(0.5f) * (low + high);
 }
 
 /// Coordinate of an STD's gamma, 0 at std_min_gamma and 1 at std_max_gamma; NaN counts as 2.
 template <class Real>
 Real std_tail(const Real& gamma)
 {
-    return detail::tail_coordinate(gamma, std_min_gamma, std_max_gamma, detail::std_tail_scale);
+    const Real g = detail::sanitised(gamma, std_min_gamma, std_max_gamma, 2);
+    return detail::tail_coordinate(detail::std_tail_position(g), detail::std_lowest_position,
+                                   detail::std_highest_position);
 }
 /// The inverse of std_tail.
 template <class Real>
 Real std_gamma(const Real& coordinate)
 {
-    return detail::tail_gamma(coordinate, std_min_gamma, std_max_gamma, detail::std_tail_scale);
+    using namespace detail;
+    const Real position =
+        constant<Real>(std_lowest_position) +
+        constant<Real>(std_highest_position - std_lowest_position) * saturate(coordinate);
+    const Real e = exp(position);
+    return sanitised(constant<Real>(1.5) + Real(4) * e / (Real(1) - e), std_min_gamma,
+                     std_max_gamma, 2);
 }
 
 REGAIN_NAMESPACE_END

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+/// @file
+/// What a rough dielectric loses to later bounces, given back by a gain on its weight:
+///
+///   modes RT, T   1 + s (1 - E^S(wo)) / E^S(wo)                   Turquin 2019, Eq. 18
+///   mode R        1 + s F_ss (1 - E_ss(wo)) / E_ss(wo)            Eqs. 10 and 14
+///
+/// with the strength s in [0, 1], E^S = E^R + E^T the albedo of both lobes on the side of wo, and
+/// E_ss that of the distribution with F = 1. Later bounces are taken to divide into reflected and
+/// transmitted light as the first does, so a lobe of mode T has the gain of the pair.
+///
+/// A dielectric absorbs nothing, so where all its light is accounted for there is no F_ms to
+/// choose: `normalise` and `turquin` are one formula. The other methods are formulas for metals.
+
+#pragma once
+
+#include <regain/closures/compensated.h>
+#include <regain/closures/dielectric.h>
+
+REGAIN_NAMESPACE_BEGIN
+
+template <class RealType>
+class DielectricGain
+{
+public:
+    using Real = RealType;
+    using Color = Color3<Real>;
+
+    /// Methods that mean something for a dielectric; with another the gain is 1.
+    static constexpr bool supports(Method method)
+    {
+        return method == Method::none || method == Method::normalise || method == Method::turquin;
+    }
+
+    /// `tables` are of the lobe's distribution and form of transmission shadowing; mode R takes its
+    /// E_ss from `mirror`. Without the table that the mode needs the gain is 1. strength is clamped
+    /// to [0, 1], NaN becomes 0.
+    template <class Distribution>
+    DielectricGain(const Dielectric<Distribution>& lobe, Method method,
+                   const DielectricTables& tables, const MicrofacetTables& mirror, Real strength)
+        : _tables(tables), _mirror(mirror), _axes(lobe.distribution())
+    {
+        const Vec3<Real> up(Real(0), Real(0), Real(1));
+        _index[0] = lobe.relative_index(up);
+        _index[1] = lobe.relative_index(-up);
+        _reflects_only = lobe.scatter_mode() == ScatterMode::R;
+        _bound = supports(method) && method != Method::none &&
+                 (_reflects_only ? bool(mirror.E_ss) : bool(tables));
+        if (!_bound) return;
+
+        const auto& distribution = lobe.distribution();
+        const Real s = detail::saturate(strength);
+        for (int side = 0; side < 2; ++side)
+        {
+            const Real colour = _reflects_only
+                                    ? DielectricFresnel<Real>(_index[side]).average_reflectance()
+                                    : Real(1);
+            // A flat surface loses nothing to later bounces.
+            _strength[side] = colour * detail::select(distribution.is_delta(), Real(0), s);
+        }
+        _preserves = lobe.scatter_mode() == ScatterMode::RT && detail::all<Real>(s == Real(1)) &&
+                     detail::all<Real>(distribution.alpha_x() == distribution.alpha_y());
+    }
+
+    Color at(const Vec3<Real>& wo) const
+    {
+        if (!_bound) return Color(Real(1));
+        const MaskOf<Real> below = wo.z < Real(0);
+        const Real mu = detail::saturate(detail::abs(wo.z));
+        const Real E =
+            _reflects_only
+                ? _mirror.albedo(_axes, mu)
+                : _tables.albedo(_axes.alpha(), detail::select(below, _index[1].eta, _index[0].eta),
+                                 mu);
+        const Real s = detail::select(below, _strength[1], _strength[0]);
+        return Color(Real(1) + s * ((Real(1) - E) / E));
+    }
+
+    /// At full strength all light of an isotropic interface that is not tinted leaves it.
+    bool energy_preserving() const { return _bound && _preserves; }
+
+private:
+    DielectricTables _tables;
+    MicrofacetTables _mirror;
+    TableAxes<Real> _axes;
+    RelativeIndex<Real> _index[2];  // from above, from below
+    Real _strength[2] = {Real(0), Real(0)};
+    bool _reflects_only = false, _bound = false, _preserves = false;
+};
+
+/// The dielectric compensated at strength s in [0, 1]. `tables` serve its gain and, unless the lobe
+/// has its own, its albedo; mode R takes its gain from `mirror`.
+template <class Distribution>
+Compensated<Dielectric<Distribution>, DielectricGain<typename Distribution::Real>> compensated(
+    Dielectric<Distribution> lobe, Method method, const DielectricTables& tables,
+    const MicrofacetTables& mirror,
+    typename Distribution::Real strength = typename Distribution::Real(1))
+{
+    if (!lobe.tables()) lobe.set_tables(tables);
+    return {lobe,
+            DielectricGain<typename Distribution::Real>(lobe, method, tables, mirror, strength)};
+}
+/// The same for modes RT and T.
+template <class Distribution>
+Compensated<Dielectric<Distribution>, DielectricGain<typename Distribution::Real>> compensated(
+    const Dielectric<Distribution>& lobe, Method method, const DielectricTables& tables,
+    typename Distribution::Real strength = typename Distribution::Real(1))
+{
+    return compensated(lobe, method, tables, MicrofacetTables{}, strength);
+}
+
+REGAIN_NAMESPACE_END

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+/// @file
+/// What a rough interface between two dielectrics reflects and transmits in one scattering, in
+/// double precision and without any of the closures' code:
+///
+///   E^R(wo) = int D_visible(m) F(wo.m) G2(wo, wr) / G1(wo) dm          over wr above the surface
+///   E^T(wo) = int D_visible(m) (1 - F(wo.m)) G2(wo, wt) / G1(wo) dm    over wt below it
+///
+/// (Turquin 2019, Eq. 17; Walter et al. 2007), energies, with exact unpolarised Fresnel F, Smith's
+/// D_visible(m) = max(0, wo.m) D(m) / sigma(wo), and for G2
+///
+///   1 / (1 + Lambda_o + Lambda_i)          reflection; transmission, "correlated"
+///   B(1 + Lambda_o, 1 + Lambda_i)          transmission, "beta" (Heitz et al. 2016)
+///
+/// Facets are taken in polar coordinates about wo, in which Fresnel, total reflection and the two
+/// horizons are all lines or known arcs.
+
+#pragma once
+
+#include <regain/luts/slope_law.h>
+
+REGAIN_NAMESPACE_BEGIN
+namespace luts {
+
+struct DielectricAlbedo
+{
+    double reflected;
+    double transmitted_correlated, transmitted_beta;  ///< by the form of shadowing
+};
+
+/// mu = cos theta_o in (0, 1]; eta_o > 0 is the index ahead of wo over the index on its side.
+/// `nodes` along each piece: 24 gives 1e-6.
+REGAIN_LUTS_API DielectricAlbedo dielectric_albedo(const SlopeLaw& law, double mu, double eta_o,
+                                                   int nodes = 24);
+
+}  // namespace luts
+REGAIN_NAMESPACE_END

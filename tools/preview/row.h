@@ -68,6 +68,8 @@ class RowIntegrator
 public:
     /// Binds the tables of the materials.
     RowIntegrator(Host, const World&, const std::vector<shaders::MicrofacetMaterial>& materials);
+    /// Materials of any kind.
+    RowIntegrator(Host, const World&, std::vector<std::unique_ptr<BoundMaterial>> materials);
     ~RowIntegrator();
     const Integrator& get() const { return *_integrator; }
 

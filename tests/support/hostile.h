@@ -2,27 +2,16 @@
 // Copyright Contributors to the Regain project
 
 /// @file
-/// Numbers, colours and directions from everywhere they can come from, and floating-point traps.
+/// Numbers, colours and directions from everywhere they can come from.
 
 #pragma once
 
 #include "closures.h"
+#include "trapped.h"
 
-#include <cfenv>
 #include <limits>
 
 namespace regain::tests {
-
-class Trapped
-{
-public:
-    Trapped() { feenableexcept(FE_INVALID | FE_DIVBYZERO); }
-    ~Trapped()
-    {
-        feclearexcept(FE_ALL_EXCEPT);
-        fedisableexcept(FE_INVALID | FE_DIVBYZERO);
-    }
-};
 
 template <class Real>
 class Hostile

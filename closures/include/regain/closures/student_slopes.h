@@ -57,7 +57,9 @@ public:
                 const Try other = from_below(numbers, v, w);
                 t.along = select(below, other.along, t.along);
                 t.across = select(below, other.across, t.across);
-                t.taken = both<Real>(below, other.taken) | both<Real>(!below, t.taken);
+                const Mask taken_below = both<Real>(below, other.taken),
+                           taken_above = both<Real>(!below, t.taken);
+                t.taken = taken_below | taken_above;
             }
             slopes.x = select(done, slopes.x, t.along);
             slopes.y = select(done, slopes.y, t.across);

@@ -19,8 +19,8 @@
 ///            = C y^p (1 / (2p (2p - 1)) + z / p - cos(psi) z F / (p + 1)),
 ///   F = 2F1(2p + 1, 1; p + 2; z),   C = Gamma(p + 1/2) / (sqrt(pi) Gamma(p))
 ///
-/// (g'' + g = C sin^(2p - 2); quadratic transformation, DLMF 15.8(iii); a contiguous relation). F is
-/// Gauss's continued fraction (DLMF 15.7), whose coefficients depend on gamma alone.
+/// (g'' + g = C sin^(2p - 2); quadratic transformation, DLMF 15.8(iii); a contiguous relation). F
+/// is Gauss's continued fraction (DLMF 15.7), whose coefficients depend on gamma alone.
 ///
 /// Visible normals are exact, by rejection: the first try reads the three random numbers, later
 /// ones a stream that these determine (random_stream.h), so that samples stay stratified as far as

@@ -64,10 +64,9 @@ TEST(DielectricFresnel, transmittance_of_a_pair_has_no_critical_angle)
     for (double eta : indices)
         for (double t = 1e-6; t <= 1; t *= 1.1)
         {
-            const long double c2 = 1 - (1 - (long double)t) * (1 + t) * eta * eta;
+            const long double q = t, c2 = 1 - (1 - q) * (1 + q) * eta * eta;
             if (c2 <= 0) continue;
             const double c = double(std::sqrt(c2));
-            const long double q = t;
             const long double s = 1 / (c + eta * q), p = 1 / (eta * c + q);
             const double expected = double(2 * eta * c * q * (s * s + p * p));
             EXPECT_NEAR(

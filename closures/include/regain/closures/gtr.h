@@ -68,6 +68,8 @@ public:
     /// Tail parameter, and its coordinate along the third axis of tables.
     Real gamma() const { return _gamma; }
     Real tail() const { return gtr_tail(_gamma); }
+    /// Coordinate of a width along the second axis.
+    static Real table_width(Real alpha) { return gtr_width(alpha); }
 
     /// D of the normal m along h, which need not be unit: length2 = h.h. Per steradian. At least
     /// 1e-25, so that quotients of it stay finite.

@@ -78,6 +78,8 @@ public:
     /// Tail parameter, and its coordinate along the third axis of tables.
     Real gamma() const { return _gamma; }
     Real tail() const { return std_tail(_gamma); }
+    /// Coordinate of a width along the second axis.
+    static Real table_width(Real alpha) { return std_width(alpha); }
 
     /// D of the normal m along h, which need not be unit: length2 = h.h. Per steradian.
     Real D(const Vec3<Real>& h, Real length2) const

@@ -13,11 +13,11 @@
 ///
 /// A distribution with a tail parameter gamma has a third axis z in [0, 1], its tail(): see
 /// distribution.h and tail.h. Its tail matters at slopes of 1 whatever alpha is, and near normal
-/// incidence its E_ss is linear in theta, not mu. So the other two axes are logarithms, with a
-/// linear part that holds the nodes together where the logarithm is flat:
+/// incidence its E_ss is linear in theta, not mu. So the other two axes are logarithms, with a part
+/// that holds the nodes together where the logarithm is flat:
 ///     x = 3/4 (1 + ln((k + s) / (1 + s)) / ln(1 / k)) + 1/4 s / (1 + s),
 ///                                            s = cot theta_o, k = 0.004 sqrt(alpha)
-///     y = 0.7 ln(1 + 1000 alpha) / ln 1001 + 0.3 alpha
+///     y = its table_width(alpha)
 
 #pragma once
 
@@ -34,7 +34,7 @@ Real stretched_cosine(Real mu, Real alpha)
     return detail::sqrt(mu / (mu + alpha * (Real(1) - mu)));
 }
 
-/// x and y above of distributions with a tail; mu in [0, 1], alpha in (0, 1].
+/// x above of distributions with a tail; mu in [0, 1], alpha in (0, 1].
 template <class Real>
 Real tail_cosine(Real mu, Real alpha)
 {
@@ -43,14 +43,6 @@ Real tail_cosine(Real mu, Real alpha)
     const Real l = Real(1) - detail::log((k * c + s) * scale) / detail::log(k);
     return detail::saturate(Real(0.75f) * l + Real(0.25f) * s * scale);
 }
-template <class Real>
-Real tail_width(Real alpha)
-{
-    return detail::saturate(detail::constant<Real>(0.7 / 6.9087547793152205) *
-                                detail::log(Real(1) + Real(1000) * alpha) +
-                            detail::constant<Real>(0.3) * alpha);
-}
-
 /// A table of `width` x `height` x `depth` 16-bit numbers, x fastest; an axis that is not there has
 /// length 1. A value is offset + scale * stored. The default is no table.
 struct TableView
@@ -137,7 +129,7 @@ public:
     template <class Distribution>
     explicit TableAxes(const Distribution& distribution)
         : _alpha(distribution.effective_alpha()),
-          _width(Distribution::has_tail ? tail_width(_alpha) : detail::sqrt(_alpha)),
+          _width(detail::table_width_of<Distribution>(_alpha)),
           _tail(detail::tail_of(distribution)),
           _has_tail(Distribution::has_tail)
     {}
@@ -168,17 +160,27 @@ struct MicrofacetTables
     /// Over (x, y[, z]): the moments of fresnel_moments.h over all that is scattered once, each
     /// less its value at mu.
     TableView falloff, dip;
+    /// E_ss and E_avg hold natural logarithms: where they fall to a few hundredths, straight lines
+    /// between those err less.
+    bool logarithmic = false;
 
     /// E_ss at the cosine mu in [0, 1], at most 1.
     template <class Real>
     Real albedo(const TableAxes<Real>& axes, Real mu) const
     {
-        return detail::min(axes.directional(E_ss, mu), Real(1));
+        return detail::min(value(axes.directional(E_ss, mu)), Real(1));
     }
     template <class Real>
     Real average_albedo(const TableAxes<Real>& axes) const
     {
-        return axes.average(E_avg);
+        return value(axes.average(E_avg));
+    }
+
+private:
+    template <class Real>
+    Real value(Real number) const
+    {
+        return logarithmic ? detail::exp(number) : number;
     }
 };
 

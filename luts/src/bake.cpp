@@ -287,6 +287,8 @@ bool is_error_promised(const std::string& name, const TablePoint& at)
     return Definition::of(name).family.promised(at.x, at.y, at.z);
 }
 
+bool is_logarithmic(const std::string& name) { return Definition::of(name).info.transform == "ln"; }
+
 double interpolated(const TableView& table, const TablePoint& at)
 {
     if (table.depth > 1) return table.at(at.x, at.y, at.z);

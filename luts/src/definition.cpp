@@ -46,6 +46,7 @@ double mu_of_stretched_cosine(double x, double alpha)
     const double r = x * x;
     return r * alpha / (1 - r + r * alpha);
 }
+double mu_of_plain_cosine(double x, double alpha) { return x * alpha / (1 - x + x * alpha); }
 double mu_of_tail_cosine(double x, double alpha)
 {
     if (x >= 1) return 1;
@@ -161,8 +162,9 @@ std::vector<Family::Values> Family::row(const std::vector<double>& xs, double y,
             continue;
         }
         const auto mu_at = [&](double coordinate) {
-            return tail_axis ? mu_of_tail_cosine(coordinate, alpha)
-                             : mu_of_stretched_cosine(coordinate, alpha);
+            return tail_axis                    ? mu_of_tail_cosine(coordinate, alpha)
+                   : distribution == "beckmann" ? mu_of_plain_cosine(coordinate, alpha)
+                                                : mu_of_stretched_cosine(coordinate, alpha);
         };
         // At mu = 0 all is reflected, but there is nothing left to take a mean of; next to it the
         // limit can be read off.
@@ -223,7 +225,8 @@ Definition Definition::of(const std::string& name)
             const std::string mu_axis =
                 tailed ? "3/4 (1 + ln((k + s) / (1 + s)) / ln(1 / k)) + 1/4 s / (1 + s), s = cot "
                          "theta, k = 0.004 sqrt(alpha)"
-                       : "sqrt(mu / (mu + alpha (1 - mu)))";
+                : info.distribution == "beckmann" ? "mu / (mu + alpha (1 - mu))"
+                                                  : "sqrt(mu / (mu + alpha (1 - mu)))";
             const std::string alpha_axis =
                 tailed ? info.distribution + "_width(alpha)" : "sqrt(alpha)";
             const std::string tail_axis = tailed ? info.distribution + "_tail(gamma)" : "";

@@ -43,6 +43,7 @@ public:
 
     static constexpr int random_numbers = 3;
     static constexpr bool has_tail = true;
+    static constexpr CosineAxis cosine_axis = CosineAxis::tail;
 
     /// Widths along x and y in [0, 1]; outside they are clamped, NaN becomes 1. One axis narrower
     /// than delta_alpha is widened to it unless both are. gamma in [gtr_min_gamma, gtr_max_gamma];

@@ -9,7 +9,9 @@
 /// axis is stretched by alpha:
 ///     x = sqrt(mu / (mu + alpha (1 - mu)))   in [0, 1]
 ///     y = sqrt(alpha)                        in [0, 1]
-/// with mu = |cos theta_o| in [0, 1], alpha in [0, 1].
+/// with mu = |cos theta_o| in [0, 1], alpha in [0, 1]. Beckmann's dip is narrower, and needs no
+/// root:
+///     x = mu / (mu + alpha (1 - mu))
 ///
 /// A distribution with a tail parameter gamma has a third axis z in [0, 1], its tail(): see
 /// distribution.h and tail.h. Its tail matters at slopes of 1 whatever alpha is, and near normal
@@ -32,6 +34,13 @@ template <class Real>
 Real stretched_cosine(Real mu, Real alpha)
 {
     return detail::sqrt(mu / (mu + alpha * (Real(1) - mu)));
+}
+
+/// x above of Beckmann; arguments as before.
+template <class Real>
+Real plain_cosine(Real mu, Real alpha)
+{
+    return mu / (mu + alpha * (Real(1) - mu));
 }
 
 /// x above of distributions with a tail; mu in [0, 1], alpha in (0, 1].
@@ -131,7 +140,8 @@ public:
         : _alpha(distribution.effective_alpha()),
           _width(detail::table_width_of<Distribution>(_alpha)),
           _tail(detail::tail_of(distribution)),
-          _has_tail(Distribution::has_tail)
+          _has_tail(Distribution::has_tail),
+          _cosine(detail::CosineAxisOf<Distribution>::value)
     {}
 
     Real alpha() const { return _alpha; }
@@ -139,8 +149,10 @@ public:
     /// mu in [0, 1].
     Real directional(const TableView& table, Real mu) const
     {
-        return _has_tail ? table.at(tail_cosine(mu, _alpha), _width, _tail)
-                         : table.at(stretched_cosine(mu, _alpha), _width);
+        const Real x = _cosine == CosineAxis::tail    ? tail_cosine(mu, _alpha)
+                       : _cosine == CosineAxis::plain ? plain_cosine(mu, _alpha)
+                                                      : stretched_cosine(mu, _alpha);
+        return _has_tail ? table.at(x, _width, _tail) : table.at(x, _width);
     }
     Real average(const TableView& table) const
     {
@@ -150,6 +162,7 @@ public:
 private:
     Real _alpha, _width, _tail;
     bool _has_tail;
+    CosineAxis _cosine;
 };
 
 /// What is tabulated of one distribution. A view that is empty is a table nobody needs.

@@ -72,5 +72,9 @@ private:
     std::vector<std::uint16_t> _stored;
 };
 
+/// The step between two numbers that a table may hold about a value: what baking the same table
+/// elsewhere may differ by. 0 for floats that were not rounded.
+REGAIN_LUTS_API double storage_step(const Table& table, double value);
+
 }  // namespace luts
 REGAIN_NAMESPACE_END

@@ -100,7 +100,9 @@ public:
     {
         const Real alpha = detail::max(_distribution.alpha_x(), _distribution.alpha_y());
         const Real width = detail::abs(_eta.minus_one) / detail::max(_eta.eta, Real(1)) * alpha;
-        return _distribution.is_delta() | (width <= detail::constant<Real>(delta_width));
+        const Mask flat = _distribution.is_delta(),
+                   narrow = width <= detail::constant<Real>(delta_width);
+        return flat | narrow;
     }
 
     Traits traits() const
@@ -298,9 +300,14 @@ public:
             const Mask known = length2 > detail::constant<Real>(1e-20);
             h = detail::select(known, h, up);
             length2 = detail::select(known, length2, Real(1));
-            t.valid = detail::both<Real>(
-                possible & known, (Mask(reflects()) & !_flat & is_reflection(_wo, wi, h)) |
-                                      (Mask(transmits()) & !_narrow & is_transmission(_wo, wi, h)));
+            Mask joined(false);
+            if (reflects()) joined = detail::both<Real>(is_reflection(_wo, wi, h), !_flat);
+            if (transmits())
+            {
+                const Mask through = detail::both<Real>(is_transmission(_wo, wi, h), !_narrow);
+                joined = joined | through;
+            }
+            t.valid = detail::both<Real>(possible & known, joined);
 
             // Cosines about the facet; of the unit half-vector wo.h is half the length of the sum.
             const Real length = detail::sqrt(length2), inv = Real(1) / length;

@@ -17,7 +17,7 @@
 ///
 /// Two forms of G2 exist for transmission. `correlated` is 1 / (1 + Lambda_o + Lambda_i), as for
 /// reflection. `beta`, B(1 + Lambda_o, 1 + Lambda_i), is what the Smith model means by passing in
-/// from one side and out to the other (Heitz et al. 2016, Eq. 37), and far lower at grazing angles.
+/// from one side and out to the other (Heitz et al. 2016), and far lower at grazing angles.
 ///
 /// Delta lobes. Of a flat surface (the distribution's delta limit) both lobes are. The transmitted
 /// directions spread over |eta - 1| alpha; at or below delta_width of that, light passes along the

@@ -22,8 +22,9 @@
 /// Delta lobes. Of a flat surface (the distribution's delta limit) both lobes are. The transmitted
 /// directions spread over |eta - 1| alpha; at or below delta_width of that, light passes along the
 /// direction that the macroscopic surface refracts it to, while reflection stays rough. Its weight
-/// is then the G2 / G1(wo) of that direction, which the rough lobe tends to, so that neither the
-/// albedo nor its compensation jumps. At eta = 1 nothing is reflected.
+/// is then the G2 / G1(wo) that the rough lobe tends to, so that neither the albedo nor its
+/// compensation jumps, and its pdf the 1 - F of the facet that was drawn, whose mean is P(delta).
+/// At eta = 1 nothing is reflected.
 
 #pragma once
 

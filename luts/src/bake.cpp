@@ -84,7 +84,11 @@ std::shared_ptr<const Lattice> lattice_of(const Definition& d, const BakeProgres
     static std::shared_ptr<const Lattice> kept;
     {
         const std::lock_guard<std::mutex> lock(mutex);
-        if (kept && last == d.family) return kept;
+        if (kept && last == d.family)
+        {
+            if (progress && !progress(1)) throw BakeStopped();
+            return kept;
+        }
     }
     auto lattice = std::make_shared<const Lattice>(integrate(d, progress));
     const std::lock_guard<std::mutex> lock(mutex);

@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+/// @file
+/// Compensation by an added lobe: what single scattering loses leaves in all directions, as a
+/// symmetric product of the losses of both directions (Kulla and Conty 2017, after Kelemen and
+/// Szirmay-Kalos 2001; Turquin 2019, Eq. 6):
+///
+///   f_ms(wo, wi) = F_ms (1 - E_ss(wo)) (1 - E_ss(wi)) / (pi (1 - E_avg))
+///
+/// Its albedo is F_ms (1 - E_ss(wo)), it is reciprocal, and with F = 1 nothing is lost. Its colour:
+///
+///   kulla-conty          F_ms = F_ss E_avg / (1 - F_ss (1 - E_avg))      Turquin 2019, Eq. 7
+///   kulla-conty-series   F_ms = F_ss^2 E_avg / (1 - F_ss (1 - E_avg))    the series corrected
+///
+/// The printed series gives its first term, light of the second bounce, one factor of F_ss; but it
+/// has met two facets. (Hill 2018, "A multi-faceted exploration, part 2", found the same.)
+///
+/// The lobe and the added lobe make one closure: hosts see one eval, one pdf and weights that are
+/// their quotient. The added lobe is sampled by missing_energy.h.
+///
+/// Building one asks the table of E_ss 16 times; it is meant to be built once per material, or once
+/// per shading point where alpha is textured. Per shading point and per direction the cost is one
+/// look-up.
+
+#pragma once
+
+#include <regain/closures/microfacet_reflection.h>
+#include <regain/closures/missing_energy.h>
+#include <regain/closures/sum.h>
+
+#include <optional>
+#include <string_view>
+
+REGAIN_NAMESPACE_BEGIN
+
+/// Which F_ms.
+enum class KullaContyForm { printed, series };
+
+constexpr KullaContyForm all_kulla_conty_forms[] = {KullaContyForm::printed,
+                                                    KullaContyForm::series};
+
+/// The name on command lines and in documents.
+constexpr std::string_view name(KullaContyForm form)
+{
+    return form == KullaContyForm::printed ? "kulla-conty" : "kulla-conty-series";
+}
+
+/// The form of that name, or nothing.
+constexpr std::optional<KullaContyForm> kulla_conty_form_named(std::string_view wanted)
+{
+    for (KullaContyForm form : all_kulla_conty_forms)
+        if (name(form) == wanted) return form;
+    return std::nullopt;
+}
+
+/// F_ms of a form for F_ss and E_avg in [0, 1], per channel.
+template <class Real>
+Color3<Real> kulla_conty_tint(KullaContyForm form, const Color3<Real>& F_ss, Real E_avg)
+{
+    return detail::per_channel(F_ss, [&](Real F) {
+        const Real numerator = form == KullaContyForm::printed ? F : F * F;
+        // 0 / 0 where F = 1 and nothing is reflected once.
+        return numerator * E_avg /
+               detail::max(Real(1) - F * (Real(1) - E_avg), detail::constant<Real>(1e-9));
+    });
+}
+
+/// The added lobe alone: azimuthally symmetric, black for a mirror and without a table.
+template <class RealType>
+class MissingEnergyLobe
+{
+public:
+    using Real = RealType;
+    using Mask = MaskOf<Real>;
+    using Color = Color3<Real>;
+    static constexpr int random_numbers = 2;
+
+    /// White, so F_ms = 1. Of `tables` it needs E_ss of this distribution.
+    template <class Distribution>
+    MissingEnergyLobe(const Distribution& distribution, const MicrofacetTables& tables)
+        : _tables(tables),
+          _axes(distribution),
+          _black(distribution.is_delta()),
+          _bound(tables.E_ss),
+          _tint(Real(1))
+    {
+        if (_bound)
+            _missing = MissingEnergy<Real>(_axes.alpha(), [this](Real mu) { return loss(mu); });
+    }
+
+    bool bound() const { return _bound; }
+    const MissingEnergy<Real>& missing() const { return _missing; }
+
+    /// F_ms, in [0, 1] per channel.
+    const Color& tint() const { return _tint; }
+    void set_tint(const Color& tint) { _tint = tint; }
+
+    /// 1 - E_ss at mu in [0, 1].
+    Real loss(Real mu) const
+    {
+        if (!_bound) return Real(0);
+        return detail::select(_black, Real(0), Real(1) - _tables.albedo(_axes, mu));
+    }
+
+    Traits traits() const
+    {
+        Traits t;
+        t.reciprocal = true;
+        t.exact_pdf = true;
+        t.random_numbers = random_numbers;
+        return t;
+    }
+
+    class Prepared
+    {
+    public:
+        Prepared(const MissingEnergyLobe& lobe, const Vec3<Real>& wo)
+            : _lobe(lobe),
+              _valid(detail::is_above_horizon(wo)),
+              _wo(detail::select(_valid, wo, Vec3<Real>(Real(0), Real(0), Real(1)))),
+              _loss(lobe.loss(detail::min(_wo.z, Real(1)))),
+              _scale(_loss * detail::constant<Real>(0.318309886183790671538) /
+                     detail::max(lobe._missing.average(), detail::constant<Real>(1e-30))),
+              _weight(lobe._tint)
+        {
+            _valid = detail::both<Real>(_valid, _loss > Real(0));
+            _weight = detail::select(_valid, _weight, Color(Real(0)));
+        }
+
+        const Vec3<Real>& wo() const { return _wo; }
+        void scale_by(const Color& weight) { _weight *= weight; }
+
+        /// 1 - E_ss(wo).
+        Real loss() const { return _loss; }
+
+        Color eval(const Vec3<Real>& wi) const
+        {
+            const Terms t = terms(wi);
+            return detail::select(t.valid, _weight * value(t), Color(Real(0)));
+        }
+
+        Sample<Real> sample(const Vec2<Real>& u) const
+        {
+            return sample(detail::two_numbers<MissingEnergyLobe>(u));
+        }
+        Sample<Real> sample(const Vec3<Real>& u) const
+        {
+            const Real mu = _lobe._missing.sample(detail::saturate(u.x));
+            const Real sine = detail::sqrt((Real(1) - mu) * (Real(1) + mu));
+            const Real phi = detail::constant<Real>(6.28318530717958647692) * detail::saturate(u.y);
+            const Vec3<Real> wi(sine * detail::cos(phi), sine * detail::sin(phi), mu);
+            const Terms t = terms(wi);
+
+            Sample<Real> s;
+            s.valid = t.valid;
+            s.wi = detail::select(s.valid, wi, Vec3<Real>(Real(0), Real(0), Real(1)));
+            const Real pdf = density(t);
+            s.weight = detail::select(s.valid, _weight * (value(t) / pdf), Color(Real(0)));
+            s.pdf = detail::select(s.valid, pdf, Real(0));
+            return s;
+        }
+
+        Real pdf(const Vec3<Real>& wi) const
+        {
+            const Terms t = terms(wi);
+            return detail::select(t.valid, density(t), Real(0));
+        }
+
+        Albedo<Real> albedo() const { return {_weight * _loss, Color(Real(0))}; }
+
+    private:
+        struct Terms
+        {
+            Mask valid;
+            Real mu;  // cos theta_i
+        };
+        Terms terms(const Vec3<Real>& wi) const
+        {
+            const Mask valid = detail::both<Real>(_valid, detail::is_above_horizon(wi));
+            return {valid, detail::min(detail::select(valid, wi.z, Real(1)), Real(1))};
+        }
+        // f cos theta_i of a white lobe.
+        Real value(const Terms& t) const { return _scale * _lobe.loss(t.mu) * t.mu; }
+        // Per steradian. It takes a logarithm, so eval is spared it.
+        Real density(const Terms& t) const
+        {
+            return _lobe._missing.density(t.mu) * detail::constant<Real>(0.159154943091895335769);
+        }
+
+        MissingEnergyLobe _lobe;
+        Mask _valid;
+        Vec3<Real> _wo;
+        Real _loss, _scale;  // 1 - E_ss(wo), that over pi (1 - E_avg)
+        Color _weight;
+    };
+
+    Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
+
+    Color eval(const Vec3<Real>& wo, const Vec3<Real>& wi) const { return prepare(wo).eval(wi); }
+    Sample<Real> sample(const Vec3<Real>& wo, const Vec2<Real>& u) const
+    {
+        return prepare(wo).sample(u);
+    }
+    Sample<Real> sample(const Vec3<Real>& wo, const Vec3<Real>& u) const
+    {
+        return prepare(wo).sample(u);
+    }
+    Real pdf(const Vec3<Real>& wo, const Vec3<Real>& wi) const { return prepare(wo).pdf(wi); }
+    Albedo<Real> albedo(const Vec3<Real>& wo) const { return prepare(wo).albedo(); }
+
+private:
+    MicrofacetTables _tables;
+    TableAxes<Real> _axes;
+    Mask _black;
+    bool _bound;
+    Color _tint;
+    MissingEnergy<Real> _missing;
+};
+
+/// A MicrofacetReflection and its added lobe.
+template <class LobeType>
+class KullaConty
+{
+public:
+    using Lobe = LobeType;
+    using Real = typename Lobe::Real;
+    using Color = Color3<Real>;
+    using Mixture = Sum<Lobe, MissingEnergyLobe<Real>>;
+    static constexpr int random_numbers = Mixture::random_numbers;
+
+    /// strength in [0, 1] scales the added lobe; clamped, NaN becomes 0. Without a table of E_ss
+    /// there is no added lobe.
+    KullaConty(const Lobe& lobe, KullaContyForm form, const MicrofacetTables& tables,
+               Real strength = Real(1))
+        : _mixture(lobe, added(lobe, form, tables, detail::saturate(strength))),
+          _F_ss(lobe.fresnel().average())
+    {
+        const auto& distribution = lobe.distribution();
+        // The tables know one alpha; what they say of two is an estimate.
+        _preserves = _mixture.second().bound() &&
+                     detail::all<Real>(detail::saturate(strength) == Real(1)) &&
+                     detail::all<Real>(distribution.alpha_x() == distribution.alpha_y());
+    }
+
+    const Lobe& lobe() const { return _mixture.first(); }
+    const MissingEnergyLobe<Real>& added_lobe() const { return _mixture.second(); }
+
+    Traits traits() const
+    {
+        Traits t = _mixture.traits();
+        t.energy_preserving = _preserves;
+        return t;
+    }
+
+    class Prepared : public Mixture::Prepared
+    {
+    public:
+        Prepared(const KullaConty& closure, const Vec3<Real>& wo)
+            : Prepared(closure, closure.lobe().prepare(wo), closure.added_lobe().prepare(wo))
+        {}
+
+    private:
+        // The lobe's own albedo would cost more look-ups, or an integral where there are none.
+        Prepared(const KullaConty& closure, const typename Lobe::Prepared& lobe,
+                 const typename MissingEnergyLobe<Real>::Prepared& added)
+            : Mixture::Prepared(lobe, added, total(closure._F_ss) * (Real(1) - added.loss()),
+                                total(added.albedo().reflect))
+        {}
+        static Real total(const Color& c) { return c.x + c.y + c.z; }
+    };
+
+    Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
+
+    Color eval(const Vec3<Real>& wo, const Vec3<Real>& wi) const { return _mixture.eval(wo, wi); }
+    Sample<Real> sample(const Vec3<Real>& wo, const Vec3<Real>& u) const
+    {
+        return prepare(wo).sample(u);
+    }
+    Real pdf(const Vec3<Real>& wo, const Vec3<Real>& wi) const { return prepare(wo).pdf(wi); }
+    Albedo<Real> albedo(const Vec3<Real>& wo) const { return prepare(wo).albedo(); }
+
+private:
+    static MissingEnergyLobe<Real> added(const Lobe& lobe, KullaContyForm form,
+                                         const MicrofacetTables& tables, Real strength)
+    {
+        MissingEnergyLobe<Real> added(lobe.distribution(), tables);
+        const Real E_avg = Real(1) - added.missing().average();
+        added.set_tint(kulla_conty_tint(form, lobe.fresnel().average(), E_avg) * strength);
+        return added;
+    }
+
+    Mixture _mixture;
+    Color _F_ss;
+    bool _preserves;
+};
+
+/// The lobe compensated by Kulla and Conty's added lobe, at strength s in [0, 1]. The tables serve
+/// the added lobe and, unless the lobe has its own, its albedo.
+template <class Lobe>
+KullaConty<Lobe> kulla_conty(Lobe lobe, KullaContyForm form, const MicrofacetTables& tables,
+                             typename Lobe::Real strength = typename Lobe::Real(1))
+{
+    if (!lobe.tables().E_ss) lobe.set_tables(tables);
+    return {lobe, form, tables, strength};
+}
+
+REGAIN_NAMESPACE_END

@@ -91,9 +91,10 @@ DielectricIntegral along_ray(const Vec3<double>& wo, double eta_o, double alpha_
     for (int i = 0; i < steps; ++i)
     {
         const int after = state(double(i + 1) / steps);
-        // Two edges may lie in one step.
+        // A few edges may lie in one step; where rounding decides a state they seem to be many.
         double a = double(i) / steps;
-        for (int seen = before; seen != after;)
+        int seen = before;
+        for (int found = 0; found < 4 && seen != after; ++found)
         {
             double b = double(i + 1) / steps;
             for (int k = 0; k < 46; ++k)

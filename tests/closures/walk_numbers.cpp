@@ -38,36 +38,39 @@ void check_garbage(const Closure& walk, Hostile<Real>& hostile, long& failures)
 }
 
 template <class Distribution, class Real>
-void check_garbage_of(const Distribution& distribution, Hostile<Real>& hostile, long& failures)
+void check_garbage_of(const Distribution& distribution, Hostile<Real>& hostile, std::uint64_t pick,
+                      long& failures)
 {
-    const int samples = hostile.parameter() < Real(0.9) ? 1 : 2;
-    check_garbage(Walk<Distribution, SchlickFresnel<Real>>(
-                      distribution, SchlickFresnel<Real>(hostile.color(), hostile.color()), samples,
-                      hostile.parameter() < Real(0.5) ? luts::ggx_tables() : MicrofacetTables{}),
-                  hostile, failures);
-    const Real eta = hostile.parameter() < Real(0.5) ? hostile.number()
-                                                     : Real(1) / (hostile.parameter() + Real(0.5));
+    const int samples = pick % 10 ? 1 : 2;
+    const MicrofacetTables tables = pick % 3 ? luts::ggx_tables() : MicrofacetTables{};
     check_garbage(
-        DielectricWalk<Distribution>(distribution, eta, hostile.color(), hostile.color(), samples),
+        Walk<Distribution, SchlickFresnel<Real>>(
+            distribution, SchlickFresnel<Real>(hostile.color(), hostile.color()), samples, tables),
         hostile, failures);
+    const Real eta = hostile.number(), usual = Real(0.3 + 0.02 * double(pick % 64));
+    check_garbage(DielectricWalk<Distribution>(distribution, pick % 4 ? usual : eta,
+                                               hostile.color(), hostile.color(), samples),
+                  hostile, failures);
 }
 
 template <class Real>
 void run_garbage(int calls)
 {
     Hostile<Real> hostile(7 + sizeof(Real));
+    Random random(23);
     long failures = 0;
     const Trapped trapped;
     for (int i = 0; i < calls; ++i)
     {
         const Real ax = hostile.parameter(), ay = i % 3 ? ax : hostile.parameter();
-        check_garbage_of(GGX<Real>(ax, ay), hostile, failures);
-        if (i % 8 == 0) check_garbage_of(Beckmann<Real>(ax, ay), hostile, failures);
+        const std::uint64_t pick = random.bits();
+        check_garbage_of(GGX<Real>(ax, ay), hostile, pick, failures);
+        if (i % 8 == 0) check_garbage_of(Beckmann<Real>(ax, ay), hostile, pick, failures);
         if (i % 16 == 0)
         {
-            const Real gamma = hostile.parameter() * Real(4);
-            check_garbage_of(GTR<Real>(ax, ay, gamma), hostile, failures);
-            check_garbage_of(STD<Real>(ax, ay, gamma + Real(1)), hostile, failures);
+            const Real gamma = i % 64 ? Real(5 * random.unit()) : hostile.number();
+            check_garbage_of(GTR<Real>(ax, ay, gamma), hostile, pick, failures);
+            check_garbage_of(STD<Real>(ax, ay, gamma), hostile, pick, failures);
         }
     }
     EXPECT_EQ(failures, 0);

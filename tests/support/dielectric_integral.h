@@ -27,7 +27,7 @@ struct FacetPaths
 {
     double facing = 0;  ///< wo.m
     double refracted_cosine = 0;
-    Vec3<double> reflected, refracted;
+    Vec3<double> reflected{0.0}, refracted{0.0};
     double reflected_jacobian = 0, refracted_jacobian = 0;  ///< dwi / dm; 0 where impossible
 };
 
@@ -62,8 +62,6 @@ struct DielectricIntegral
         transmitted += other.transmitted * weight;
     }
 };
-
-namespace detail {
 
 // Along the ray of azimuth phi in the stretched plane of slopes, rho drho. `at(m)` is the integrand
 // per dm.
@@ -129,8 +127,6 @@ DielectricIntegral along_ray(const Vec3<double>& wo, double eta_o, double alpha_
     return sum;
 }
 
-}  // namespace detail
-
 /// The integral over the facets that face wo, wo.z > 0, of at(m) per dm, within about `tolerance`.
 template <class F>
 DielectricIntegral integrate_facets(const Vec3<double>& wo, double eta_o, double alpha_x,
@@ -140,9 +136,8 @@ DielectricIntegral integrate_facets(const Vec3<double>& wo, double eta_o, double
     const auto arc = [&](double from, double to) {
         DielectricIntegral sum;
         for (std::size_t i = 0; i < rule.x.size(); ++i)
-            sum.add(
-                detail::along_ray(wo, eta_o, alpha_x, alpha_y, from + (to - from) * rule.x[i], at),
-                rule.weight[i] * (to - from));
+            sum.add(along_ray(wo, eta_o, alpha_x, alpha_y, from + (to - from) * rule.x[i], at),
+                    rule.weight[i] * (to - from));
         return sum;
     };
     // Halves an arc until its halves say the same.

@@ -17,13 +17,14 @@
 ///
 /// Two forms of G2 exist for transmission. `correlated` is 1 / (1 + Lambda_o + Lambda_i), as for
 /// reflection. `beta`, B(1 + Lambda_o, 1 + Lambda_i), is what the Smith model means by passing in
-/// from one side and out to the other (Heitz et al. 2016, Eq. 37), and far lower at grazing angles.
+/// from one side and out to the other (Heitz et al. 2016), and far lower at grazing angles.
 ///
 /// Delta lobes. Of a flat surface (the distribution's delta limit) both lobes are. The transmitted
 /// directions spread over |eta - 1| alpha; at or below delta_width of that, light passes along the
 /// direction that the macroscopic surface refracts it to, while reflection stays rough. Its weight
-/// is then the G2 / G1(wo) of that direction, which the rough lobe tends to, so that neither the
-/// albedo nor its compensation jumps. At eta = 1 nothing is reflected.
+/// is then the G2 / G1(wo) that the rough lobe tends to, so that neither the albedo nor its
+/// compensation jumps, and its pdf the 1 - F of the facet that was drawn, whose mean is P(delta).
+/// At eta = 1 nothing is reflected.
 
 #pragma once
 
@@ -100,7 +101,9 @@ public:
     {
         const Real alpha = detail::max(_distribution.alpha_x(), _distribution.alpha_y());
         const Real width = detail::abs(_eta.minus_one) / detail::max(_eta.eta, Real(1)) * alpha;
-        return _distribution.is_delta() | (width <= detail::constant<Real>(delta_width));
+        const Mask flat = _distribution.is_delta(),
+                   narrow = width <= detail::constant<Real>(delta_width);
+        return flat | narrow;
     }
 
     Traits traits() const
@@ -160,7 +163,7 @@ public:
             const Real share = detail::select(reflect, F.reflectance, F.transmittance);
             const Real choice = both_lobes() ? share : Real(1);
             const Real passed = both_lobes() ? Real(1) : share;
-            const Real delta_weight = passed * detail::select(_flat, Real(1), t.masking);
+            const Real delta_weight = passed * delta_masking(refraction.wi, t.masking);
 
             Sample<Real> s;
             s.pdf = detail::select(is_delta, choice, t.density);
@@ -184,7 +187,9 @@ public:
 
         Albedo<Real> albedo() const
         {
-            if (!_lobe._tables) return detail::mean_weight<Real>(*this);
+            if (!_lobe._tables)
+                return {reflects() ? alone(ScatterMode::R).reflect : Color(Real(0)),
+                        transmits() ? alone(ScatterMode::T).transmit : Color(Real(0))};
 
             const Real alpha = _lobe._distribution.effective_alpha();
             const Real eta = _fresnel.relative_index().eta, mu = detail::min(_wo.z, Real(1));
@@ -222,6 +227,14 @@ public:
                 if (!transmits()) _reflected_density = _visible.reflected_density();
             if (_lobe._shadowing == TransmissionShadowing::beta && transmits())
                 _lambda_o = _lobe._distribution.lambda(_wo);
+        }
+
+        // The albedo of one of the lobes, which takes no choice and so no third random number.
+        Albedo<Real> alone(ScatterMode mode) const
+        {
+            Prepared lobe = *this;
+            lobe._lobe._mode = mode;
+            return detail::mean_weight<Real>(lobe);
         }
 
         // A lobe that only reflects may leave out the normals that reflect below the horizon.
@@ -288,9 +301,14 @@ public:
             const Mask known = length2 > detail::constant<Real>(1e-20);
             h = detail::select(known, h, up);
             length2 = detail::select(known, length2, Real(1));
-            t.valid = detail::both<Real>(
-                possible & known, (Mask(reflects()) & !_flat & is_reflection(_wo, wi, h)) |
-                                      (Mask(transmits()) & !_narrow & is_transmission(_wo, wi, h)));
+            Mask joined(false);
+            if (reflects()) joined = detail::both<Real>(is_reflection(_wo, wi, h), !_flat);
+            if (transmits())
+            {
+                const Mask through = detail::both<Real>(is_transmission(_wo, wi, h), !_narrow);
+                joined = joined | through;
+            }
+            t.valid = detail::both<Real>(possible & known, joined);
 
             // Cosines about the facet; of the unit half-vector wo.h is half the length of the sum.
             const Real length = detail::sqrt(length2), inv = Real(1) / length;
@@ -339,6 +357,26 @@ public:
             if (_lobe._shadowing == TransmissionShadowing::correlated || !transmits())
                 return shadowing * _sigma_o;
             return beta_quotient(_lambda_o, _lobe._distribution.lambda(wi_up));
+        }
+
+        // G2 / G1(wo) of the rough lobe in the limit that it is narrow. Facets that are tilted turn
+        // wo less than the surface as a whole does: in the mean by mu / sigma_o of that, where
+        // the turn is small.
+        Real delta_masking(const Vec3<Real>& refracted, const Real& masking) const
+        {
+            const Mask rough = detail::both<Real>(_narrow, !_flat);
+            if (!detail::any<Real>(rough)) return detail::select(_flat, Real(1), masking);
+            const Real whole = detail::abs(refracted.z), mu = _wo.z;
+            const Real z = detail::min(mu + (whole - mu) * (mu / _sigma_o), Real(1));
+            const Real tangential2 = refracted.x * refracted.x + refracted.y * refracted.y;
+            const Real wanted2 = detail::max(Real(1) - z * z, Real(0));
+            const Real scale =
+                detail::sqrt(wanted2 / detail::max(tangential2, detail::constant<Real>(1e-12)));
+            const Vec3<Real> wi(refracted.x * scale, refracted.y * scale, z);
+            const Real correlated =
+                _sigma_o * z /
+                (_sigma_o * z + _lobe._distribution.projected_area(wi) * mu - mu * z);
+            return detail::select(_flat, Real(1), transmission_masking(wi, correlated / _sigma_o));
         }
 
         Dielectric _lobe;

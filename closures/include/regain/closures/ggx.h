@@ -93,7 +93,8 @@ public:
                 k = (Real(1) - a2) * s2 / (s2 + a2 * wo.z * wo.z);
             }
             _cap = k * _v.z;
-            _projected_area = ggx.projected_area(wo, t);
+            // From straight below nothing is seen.
+            _projected_area = detail::max(ggx.projected_area(wo, t), detail::constant<Real>(1e-30));
             _reflected_density = sampling == NormalSampling::bounded
                                      ? Real(0.5f) / (k * wo.z + t)
                                      : Real(0.25f) / _projected_area;

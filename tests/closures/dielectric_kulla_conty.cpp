@@ -200,7 +200,7 @@ TEST(DielectricKullaConty, average_loss_finds_the_critical_cosine)
                 return std::max(0.0, 1 - a.reflected - a.transmitted_correlated);
             };
             const double critical = std::sqrt(1 - eta * eta);
-            const MissingEnergy<double, 3, 10> few(alpha, loss, critical);
+            const MissingEnergy<double, 3, 16> few(alpha, loss, critical);
             const MissingEnergy<double, 3, 80> many(alpha, loss, critical);
             EXPECT_NEAR(few.average() / many.average(), 1, 0.01) << alpha << " " << eta;
         }

@@ -236,31 +236,35 @@ TEST(KullaConty, both_forms_are_eqs_6_and_7)
         }
 }
 
-// A table of E_ss of one distribution at one alpha, by quadrature, constant along the other axes.
+// A table of E_ss of one distribution at one alpha, by quadrature, constant along all axes but the
+// cosine, whose coordinate is found by asking a ramp.
 class BakedRow
 {
 public:
-    BakedRow(const luts::SlopeLaw& law, bool has_tail)
+    template <class Distribution>
+    BakedRow(const Distribution& distribution, const luts::SlopeLaw& law) : _stored(4 * width)
     {
+        for (int i = 0; i < 4 * width; ++i)
+            _stored[std::size_t(i)] =
+                static_cast<std::uint16_t>(std::lround(65535.0 * (i % width) / (width - 1)));
+        _tables.E_ss.data = _stored.data();
+        _tables.E_ss.width = width;
+        _tables.E_ss.height = 2;
+        _tables.E_ss.depth = 2;
+        const TableAxes<double> axes(distribution);
+        std::vector<std::uint16_t> row;
         for (int i = 0; i < width; ++i)
         {
             double low = 0, high = 1;
             for (int k = 0; k < 60; ++k)
             {
                 const double mu = 0.5 * (low + high);
-                const double x =
-                    has_tail ? tail_cosine(mu, law.alpha()) : stretched_cosine(mu, law.alpha());
-                (x * (width - 1) < i ? low : high) = mu;
+                (axes.directional(_tables.E_ss, mu) * (width - 1) < i ? low : high) = mu;
             }
             const double E = luts::albedo(law, std::max(1e-9, high), {}, {48});
-            _stored.push_back(static_cast<std::uint16_t>(std::lround(65535 * std::min(1.0, E))));
+            row.push_back(static_cast<std::uint16_t>(std::lround(65535 * std::min(1.0, E))));
         }
-        for (int copy = 1; copy < 4; ++copy)
-            _stored.insert(_stored.end(), _stored.begin(), _stored.begin() + width);
-        _tables.E_ss.data = _stored.data();
-        _tables.E_ss.width = width;
-        _tables.E_ss.height = 2;
-        _tables.E_ss.depth = 2;
+        for (int i = 0; i < 4 * width; ++i) _stored[std::size_t(i)] = row[std::size_t(i % width)];
     }
     BakedRow(const BakedRow&) = delete;
     BakedRow& operator=(const BakedRow&) = delete;
@@ -276,7 +280,7 @@ private:
 template <class Distribution>
 void check_distribution(const Distribution& distribution, const luts::SlopeLaw& law)
 {
-    const BakedRow baked(law, Distribution::has_tail);
+    const BakedRow baked(distribution, law);
     const auto closure = kulla_conty(MicrofacetReflection<Distribution, ConstantFresnel<double>>(
                                          distribution, ConstantFresnel<double>()),
                                      KullaContyForm::printed, baked.tables());

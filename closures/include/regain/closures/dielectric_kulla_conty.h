@@ -199,8 +199,9 @@ public:
             t.below = z < Real(0);
             t.reflected = !differ(t.below, _below);
             t.mu = detail::min(detail::abs(z), Real(1));
-            const Mask seen = detail::both<Real>(t.reflected, _p > Real(0)) |
-                              detail::both<Real>(!t.reflected, _p < Real(1));
+            const Mask reflects = _p > Real(0), transmits = _p < Real(1);
+            const Mask transmitted = !t.reflected;
+            const Mask seen = (t.reflected & reflects) | (transmitted & transmits);
             t.valid = detail::both<Real>(possible, seen);
             return t;
         }
@@ -225,8 +226,9 @@ public:
         }
 
         static Mask differ(const Mask& a, const Mask& b)
-        {
-            return detail::both<Real>(a, !b) | detail::both<Real>(!a, b);
+        {  // xsimd's != takes two true masks for two NaNs.
+            const Mask not_a = !a, not_b = !b;
+            return (a & not_b) | (not_a & b);
         }
         static Real total(const Color& c) { return c.x + c.y + c.z; }
 

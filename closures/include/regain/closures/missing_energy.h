@@ -18,7 +18,7 @@
 /// then run from 0 up, from there down and from there up, each with the distance from its start for
 /// t. The density is linear in s between equal steps, so it is inverted in closed form and known
 /// exactly. A cosine-weighted density in its place would give weights of over a hundred at small
-/// alpha; this one stays within 1.5 of (1 - E) mu.
+/// alpha; this one stays within 1.4 of (1 - E) mu for all four distributions, alpha >= 1e-3.
 
 #pragma once
 
@@ -94,7 +94,7 @@ public:
             second = place.t < _critical;
             first = place.t < Real(0.5f) * _critical;
             start = detail::select(first, Real(0), _critical);
-            sign = detail::select(second & !first, Real(-1), Real(1));
+            sign = detail::select(detail::both<Real>(second, !first), Real(-1), Real(1));
             inv_range = detail::select(second, _piece[0].inv_log_range, inv_range);
         }
         const Real distance = detail::max((place.t - start) * sign, Real(0));

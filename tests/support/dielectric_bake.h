@@ -2,9 +2,9 @@
 // Copyright Contributors to the Regain project
 
 /// @file
-/// Dielectric tables of GGX with few nodes along alpha and index, baked for a test that asks at the
-/// nodes alone. Along the cosine they have three times the steps of real tables, so that what is
-/// off is not theirs.
+/// Tables of E^S for a test, of one GGX interface: by quadrature, and constant along all axes but
+/// the cosine, where they have three times the nodes of real ones, so that what is off is not
+/// theirs. The axis is found by asking the tables themselves.
 
 #pragma once
 
@@ -13,6 +13,9 @@
 
 #include <cmath>
 #include <cstdint>
+#include <map>
+#include <memory>
+#include <tuple>
 #include <vector>
 
 namespace regain::tests {
@@ -20,46 +23,47 @@ namespace regain::tests {
 class BakedDielectric
 {
 public:
-    static constexpr int rows = 5, layers = 5;
-
-    /// The alpha and index (at least 1) of a node.
-    static double alpha(int row) { return std::pow(row / double(rows - 1), 2); }
-    static double index(int layer)
+    /// index is at least 1; both sides are baked.
+    BakedDielectric(double alpha, double index, bool beta)
     {
-        const double z = layer / double(layers - 1), q = 0.6 * z * z;
-        return (1 + q) / (1 - q);
-    }
-
-    explicit BakedDielectric(bool beta)
-    {
-        constexpr int width = 3 * 31 + 1;
         for (int side = 0; side < 2; ++side)
         {
-            for (int k = 0; k < layers; ++k)
-                for (int j = 0; j < rows; ++j)
-                    for (int i = 0; i < width; ++i)
-                    {
-                        double E = 1, R = 0;
-                        const double eta = side == 0 ? index(k) : 1 / index(k);
-                        const double mu = cosine(side, i / double(width - 1), alpha(j), eta);
-                        if (j > 0 && mu > 0)
-                        {
-                            const auto a =
-                                luts::dielectric_albedo(luts::SlopeLaw::ggx(alpha(j)), mu, eta, 12);
-                            const double T = beta ? a.transmitted_beta : a.transmitted_correlated;
-                            E = a.reflected + T;
-                            R = a.reflected / E;
-                        }
-                        _E[side].push_back(stored(E));
-                        _R[side].push_back(stored(R));
-                    }
-            for (auto* view : {&_tables.E[side], &_tables.R[side]})
+            _E[side].resize(4 * width);
+            _R[side].resize(4 * width);
+            // A ramp, whose look-ups are the coordinate; shares of nothing.
+            for (int i = 0; i < 4 * width; ++i)
+                _E[side][std::size_t(i)] = stored((i % width) / double(width - 1));
+            const auto view = [](const std::vector<std::uint16_t>& data) {
+                TableView v;
+                v.data = data.data();
+                v.width = width;
+                v.height = v.depth = 2;
+                return v;
+            };
+            _tables.E[side] = view(_E[side]);
+            _tables.R[side] = view(_R[side]);
+        }
+        for (int side = 0; side < 2; ++side)
+        {
+            const double eta = side == 0 ? index : 1 / index;
+            std::vector<double> mu;
+            for (int i = 0; i < width; ++i) mu.push_back(cosine(alpha, eta, i / double(width - 1)));
+            std::vector<std::uint16_t> E, R;
+            for (double m : mu)
             {
-                view->data = (view == &_tables.E[side] ? _E : _R)[side].data();
-                view->width = width;
-                view->height = rows;
-                view->depth = layers;
+                const auto a = luts::dielectric_albedo(luts::SlopeLaw::ggx(alpha), m, eta, 12);
+                const double T = beta ? a.transmitted_beta : a.transmitted_correlated;
+                const double share = a.reflected / (a.reflected + T);
+                E.push_back(stored(a.reflected + T));
+                R.push_back(stored(0.5 + 0.5 * (share - _tables.reflected_share(alpha, eta, m))));
             }
+            for (int i = 0; i < 4 * width; ++i)
+            {
+                _E[side][std::size_t(i)] = E[std::size_t(i % width)];
+                _R[side][std::size_t(i)] = R[std::size_t(i % width)];
+            }
+            _tables.R[side].offset = -1;
+            _tables.R[side].scale = 2.0f / 65535;
         }
     }
     BakedDielectric(const BakedDielectric&) = delete;
@@ -68,29 +72,37 @@ public:
     const DielectricTables& tables() const { return _tables; }
 
 private:
+    static constexpr int width = 3 * 31 + 1;
+
     static std::uint16_t stored(double v)
     {
         return static_cast<std::uint16_t>(std::lround(65535 * std::min(1.0, std::max(0.0, v))));
     }
 
-    // The cosine at a coordinate, by bisection of the axis itself.
-    static double cosine(int side, double x, double alpha, double eta)
+    // By bisection of the ramp.
+    double cosine(double alpha, double eta, double x) const
     {
-        if (alpha == 0) return 0;
         double low = 0, high = 1;
         for (int i = 0; i < 60; ++i)
         {
             const double mu = 0.5 * (low + high);
-            const double at = side == 0 || eta >= 1
-                                  ? stretched_cosine(mu, alpha)
-                                  : regain::detail::critical_cosine_coordinate(mu, alpha, eta);
-            (at < x ? low : high) = mu;
+            (_tables.albedo(alpha, eta, mu) < x ? low : high) = mu;
         }
-        return std::max(1e-9, 0.5 * (low + high));
+        return std::max(1e-9, high);
     }
 
     std::vector<std::uint16_t> _E[2], _R[2];
     DielectricTables _tables;
 };
+
+/// Baked when first asked for; eta above or below 1.
+inline const DielectricTables& baked_dielectric(double alpha, double eta, bool beta)
+{
+    static std::map<std::tuple<double, double, bool>, std::unique_ptr<BakedDielectric>> all;
+    const double index = std::max(eta, 1 / eta);
+    auto& one = all[{alpha, index, beta}];
+    if (!one) one = std::make_unique<BakedDielectric>(alpha, index, beta);
+    return one->tables();
+}
 
 }  // namespace regain::tests

@@ -3,7 +3,7 @@
 
 /// @file
 /// Fresnel reflectance of a conductor by two colours: r, what it reflects at normal incidence, and
-/// g, the tint of its edge (Gulbrandsen 2014, "Artist friendly metallic Fresnel", Eqs. 4, 5, 7):
+/// g, the tint of its edge (Gulbrandsen 2014, "Artist Friendly Metallic Fresnel"):
 ///
 ///   n   = g (1 - r) / (1 + r) + (1 - g) (1 + sqrt r) / (1 - sqrt r)
 ///   k^2 = ((n + 1)^2 r - (n - 1)^2) / (1 - r)

@@ -26,7 +26,7 @@
 ///
 /// L_o is looked up in DielectricTables of the distribution and form of shadowing. Tints multiply
 /// the lobes once. A lobe of mode R or T gets its own part of both. Building a closure asks the
-/// tables 66 times; per point and direction it is one look-up.
+/// tables 102 times; per point and direction it is one look-up.
 
 #pragma once
 
@@ -199,8 +199,9 @@ public:
             t.below = z < Real(0);
             t.reflected = !differ(t.below, _below);
             t.mu = detail::min(detail::abs(z), Real(1));
-            const Mask seen = detail::both<Real>(t.reflected, _p > Real(0)) |
-                              detail::both<Real>(!t.reflected, _p < Real(1));
+            const Mask reflects = _p > Real(0), transmits = _p < Real(1);
+            const Mask transmitted = !t.reflected;
+            const Mask seen = (t.reflected & reflects) | (transmitted & transmits);
             t.valid = detail::both<Real>(possible, seen);
             return t;
         }
@@ -225,8 +226,9 @@ public:
         }
 
         static Mask differ(const Mask& a, const Mask& b)
-        {
-            return detail::both<Real>(a, !b) | detail::both<Real>(!a, b);
+        {  // xsimd's != takes two true masks for two NaNs.
+            const Mask not_a = !a, not_b = !b;
+            return (a & not_b) | (not_a & b);
         }
         static Real total(const Color& c) { return c.x + c.y + c.z; }
 
@@ -250,7 +252,7 @@ public:
     Albedo<Real> albedo(const Vec3<Real>& wo) const { return prepare(wo).albedo(); }
 
 private:
-    using Missing = MissingEnergy<Real, 3, 10>;
+    using Missing = MissingEnergy<Real, 3, 16>;
 
     // 1 - E^S at mu in [0, 1], seen from where eta is the index ahead over the index behind.
     Real loss(Real eta, Real mu) const

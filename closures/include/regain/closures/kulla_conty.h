@@ -14,12 +14,12 @@
 ///   kulla-conty-series   F_ms = F_ss^2 E_avg / (1 - F_ss (1 - E_avg))    the series corrected
 ///
 /// The printed series gives its first term, light of the second bounce, one factor of F_ss; but it
-/// has met two facets. (Hill 2018, "A multi-faceted exploration, part 2", found the same.)
+/// has met two facets. (Hill 2018 found the same.)
 ///
 /// The lobe and the added lobe make one closure: hosts see one eval, one pdf and weights that are
 /// their quotient. The added lobe is sampled by missing_energy.h.
 ///
-/// Building one asks the table of E_ss 16 times; it is meant to be built once per material, or once
+/// Building one asks the table of E_ss 28 times; it is meant to be built once per material, or once
 /// per shading point where alpha is textured. Per shading point and per direction the cost is one
 /// look-up.
 

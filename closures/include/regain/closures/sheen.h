@@ -3,8 +3,8 @@
 
 /// @file
 /// Burley's sheen, an added grazing glow for what a surface loses to "multiple-scattering effects
-/// between and through microsurface features" (Burley 2015, Section 5.1; defined in Burley 2012,
-/// Section 5.3, and the published code of that model):
+/// between and through microsurface features" (Burley 2015, as Turquin 2019, Section 2, quotes it;
+/// first in Burley 2012 and the published code of that model):
 ///
 ///   f(wo, wi) = color (1 - cos theta_d)^5,   cos theta_d = wo.h = wi.h,   h = (wo + wi) / |wo +
 ///   wi|

@@ -145,7 +145,8 @@ public:
 
         static Mask either(const Mask& first, const Mask& a, const Mask& b)
         {
-            return detail::both<Real>(first, a) | detail::both<Real>(!first, b);
+            const Mask second = !first;
+            return (first & a) | (second & b);
         }
         static Sample<Real> nothing()
         {

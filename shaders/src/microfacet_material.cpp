@@ -4,6 +4,8 @@
 #include <regain/luts/builtin.h>
 #include <regain/shaders/microfacet_material.h>
 
+#include <string>
+
 REGAIN_NAMESPACE_BEGIN
 namespace shaders {
 
@@ -76,7 +78,37 @@ MicrofacetMaterial::MicrofacetMaterial(const SchlickMetal& metal)
       method(metal.method)
 {}
 
-void MicrofacetMaterial::bind_tables() { _tables = luts::ggx_tables(); }
+void MicrofacetMaterial::bind_tables()
+{
+    const auto refuse = [this](const std::string& why) {
+        throw std::invalid_argument("the method " + std::string(name(method)) + " " + why);
+    };
+    const auto* gain = std::get_if<Method>(&method);
+    const bool is_walk = std::holds_alternative<RandomWalk>(method);
+    if (std::holds_alternative<SheenSurface>(surface))
+    {
+        if (!gain || *gain != Method::none)
+            refuse("does not go with sheen, which has no microfacets; accepted: none");
+        return;
+    }
+    if (const auto* interface = std::get_if<InterfaceSurface>(&surface))
+    {
+        const bool walks = !interface->thin_walled && interface->mode == ScatterMode::RT;
+        if (is_walk && !walks)
+            refuse("takes a dielectric of scatter mode RT that is not thin-walled");
+        if (!is_walk && !(gain && DielectricGain<double>::supports(*gain)))
+            refuse(std::string("does not go with dielectrics; accepted: none, normalise, turquin") +
+                   (walks ? ", walk" : ""));
+    }
+    _tables = {};
+    _interface_tables = {};
+    const bool needs_tables = !(is_walk || std::holds_alternative<BurleySheen>(method) ||
+                                (gain && *gain == Method::none));
+    if (distribution == DistributionKind::ggx)
+        _tables = luts::ggx_tables();
+    else if (needs_tables)
+        refuse("needs tables, which there are for ggx alone");
+}
 
 }  // namespace shaders
 REGAIN_NAMESPACE_END

@@ -17,7 +17,7 @@
 ///
 ///     distribution()    its microfacets, where it has some
 ///     eta()             where it is an interface between two media: index on the -z side over
-///                       index on the +z side
+///                       index on the +z side; not asked where thin_walled is a static constant
 ///     lobe()            a closure inside it, which is asked in its place
 ///     first(), second() the closures it is the sum of
 ///
@@ -46,6 +46,13 @@ struct HasEta : std::false_type
 {};
 template <class Closure>
 struct HasEta<Closure, std::void_t<decltype(std::declval<const Closure&>().eta())>> : std::true_type
+{};
+
+template <class Closure, class = void>
+struct IsThinWalled : std::false_type
+{};
+template <class Closure>
+struct IsThinWalled<Closure, std::void_t<decltype(Closure::thin_walled)>> : std::true_type
 {};
 
 template <class Closure, class = void>
@@ -91,7 +98,7 @@ decltype(auto) with_closure(const Material& material, Real strength, const Visit
 template <class Closure>
 typename Closure::Real relative_index(const Closure& closure)
 {
-    if constexpr (detail::HasEta<Closure>::value)
+    if constexpr (detail::HasEta<Closure>::value && !detail::IsThinWalled<Closure>::value)
         return closure.eta();
     else if constexpr (detail::HasLobe<Closure>::value)
         return relative_index(closure.lobe());

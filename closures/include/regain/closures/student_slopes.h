@@ -81,7 +81,8 @@ private:
         // across, as one axis of a polar pair (Bailey 1994).
         const Real c = _cotangent;
         const Mask plain = u.x < _plain;
-        const Real number = select(plain, u.x / _plain, (u.x - _plain) / (Real(1) - _plain));
+        const Real number =
+            select(plain, u.x, u.x - _plain) / select(plain, _plain, Real(1) - _plain);
         const Real square = power_minus_one(number, select(plain, _p, _beyond));
         const Real length = sqrt(square), angle = angle_of(u.y);
         const Real side = sin(angle);
@@ -120,7 +121,7 @@ private:
     // one axis of which is distributed as (1 + t^2)^-(p + 1).
     Real across_of(const Real& square, const Real& u) const
     {
-        return sqrt((Real(1) + square) * power_minus_one(u, _p + Real(0.5f)));
+        return sqrt(Real(1) + square) * sqrt(power_minus_one(u, _p + Real(0.5f)));
     }
 
     // u^(-1/k) - 1.

@@ -82,7 +82,10 @@ public:
     /// sigma(w), the projected area of the visible microsurface; w.z may have either sign.
     Real projected_area(const Vec3<Real>& w) const
     {
-        return detail::max(w.z, Real(0)) + area_below(stretched(w));
+        const Vec3<Real> v = stretched(w);
+        if (detail::all<Real>(v.z >= Real(0)))
+            return _mixture.area_above(v.z, v.x * v.x + v.y * v.y);
+        return detail::max(v.z, Real(0)) + area_below(v);
     }
 
     /// Lambda(w) for w.z > 0.

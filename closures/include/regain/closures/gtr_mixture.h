@@ -127,6 +127,16 @@ public:
         return Real(0.5f) * sum;
     }
 
+    /// sigma(w) of the same direction.
+    Real area_above(const Real& c, const Real& s2) const
+    {
+        if (_orders > 0) return c + area_below(c, s2);
+        // Of GGX it is (c + q) / 2: nothing cancels, and no node divides.
+        Real sum = c;
+        for (int i = 0; i < _nodes; ++i) sum += _weight[i] * detail::sqrt(c * c + _t[i] * s2);
+        return Real(0.5f) * sum;
+    }
+
     /// D of the mixture at a unit normal with squared components z2 and a2 = 1 - z2.
     Real D(const Real& z2, const Real& a2) const
     {
@@ -246,7 +256,7 @@ private:
         if (_orders == 0)
         {
             const Real tangential2 = _t[i] * s2;
-            return _order[0] * tangential2 / (detail::sqrt(c * c + tangential2) + c);
+            return tangential2 / (detail::sqrt(c * c + tangential2) + c);
         }
         const StudentView<Real> view(_t[i], c, s2);
         Real mass = _order[0], x(1), power(1), sum(0);

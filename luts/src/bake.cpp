@@ -1,238 +1,298 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright Contributors to the Regain project
 
-#include <regain/closures/fresnel_moments.h>
-#include <regain/luts/albedo_integral.h>
 #include <regain/luts/bake.h>
+
+#include "definition.h"
+#include "parallel.h"
+
+#include <Imath/half.h>
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <mutex>
 
 REGAIN_NAMESPACE_BEGIN
 namespace luts {
 namespace {
 
-constexpr int table_nodes = 32;
-constexpr int node_accuracy = 64;   // quadrature nodes for the values at the nodes
-constexpr int check_accuracy = 24;  // for the many points between them; good to 1e-6
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
-// Row 0 is the limit of vanishing alpha at fixed x, which alpha 0 itself does not have.
-constexpr double smallest_alpha = 1e-6;
-
-// The point (mu, alpha) of coordinates (x, y); the inverse of stretched_cosine.
-struct Angle
+// A lattice with `between` intervals in every cell of a table, nodes included, and what a family's
+// integrals are there: what the tables of the family, and their errors, are made of.
+struct Lattice
 {
-    Angle(double x, double y) : alpha(std::max(y * y, smallest_alpha))
+    int between, width, height, depth;
+    std::vector<Family::Values> values;  // x fastest
+
+    std::size_t at(int i, int j, int k) const { return index((k * height + j) * width + i); }
+    bool is_node(int i, int j, int k) const
     {
-        const double r = x * x;
-        mu = r * alpha / (1 - r + r * alpha);
+        return i % between == 0 && j % between == 0 && k % between == 0;
     }
-    double mu, alpha;
 };
 
-double E_ss(double x, double y, int nodes)
+double coordinate(int i, int length) { return length > 1 ? i / (length - 1.0) : 0; }
+int points(int nodes, int between) { return nodes > 1 ? (nodes - 1) * between + 1 : 1; }
+
+Lattice integrate(const Definition& d, const BakeProgress& progress)
 {
-    const Angle at(x, y);
-    return at.mu > 0 ? ggx_albedo(at.mu, at.alpha, {}, {nodes}) : 1.0;
+    Lattice l;
+    // One axis is quick; with two, six checks along a cell see all there is; with three, the
+    // middles have to do.
+    const bool halves = d.depth > 1 || (d.height > 1 && d.family.kind == Family::Kind::average);
+    l.between = halves ? 2 : d.height > 1 ? 6 : 32;
+    l.width = points(d.width, l.between);
+    l.height = points(d.height, l.between);
+    l.depth = points(d.depth, l.between);
+    l.values.resize(index(l.width * l.height * l.depth));
+
+    parallel_for(index(l.height * l.depth), progress, [&](std::size_t n) {
+        const int row = static_cast<int>(n), j = row % l.height, k = row / l.height;
+        // Nodes and the points between them are integrated to their own accuracy.
+        for (const bool nodes : {true, false})
+        {
+            std::vector<double> x;
+            std::vector<int> places;
+            for (int i = 0; i < l.width; ++i)
+                if (l.is_node(i, j, k) == nodes)
+                {
+                    x.push_back(coordinate(i, l.width));
+                    places.push_back(i);
+                }
+            if (x.empty()) continue;
+            const std::vector<Family::Values> found =
+                d.family.row(x, coordinate(j, l.height), coordinate(k, l.depth),
+                             nodes ? d.node_accuracy : d.check_accuracy);
+            for (std::size_t i = 0; i < x.size(); ++i) l.values[l.at(places[i], j, k)] = found[i];
+        }
+    });
+    return l;
 }
 
-double E_avg(double y, double, int nodes)
+// The lattice of the family that was integrated last is kept for the next table.
+std::shared_ptr<const Lattice> lattice_of(const Definition& d, const BakeProgress& progress)
 {
-    return ggx_average_albedo(std::max(y * y, smallest_alpha), {nodes});
-}
-
-// The mean of a curve over what is scattered once, less its value at mu.
-double shift_of_mean(double (*curve)(double), double x, double y, int nodes)
-{
-    // At mu = 0 there is nothing left to take a mean of; next to it the limit can be read off.
-    const Angle at(std::max(x, 1e-3), y);
-    return ggx_albedo(at.mu, at.alpha, curve, {nodes}) / ggx_albedo(at.mu, at.alpha, {}, {nodes}) -
-           curve(at.mu);
-}
-
-double falloff(double x, double y, int nodes)
-{
-    return shift_of_mean([](double mu) { return FresnelMoments<double>::at(mu).falloff; }, x, y,
-                         nodes);
-}
-
-double dip(double x, double y, int nodes)
-{
-    return shift_of_mean([](double mu) { return FresnelMoments<double>::at(mu).dip; }, x, y, nodes);
-}
-
-struct Definition
-{
-    const char* quantity;
-    int height;              // number of nodes along y; 1 for one axis
-    bool fitted;             // levelled for the relative error; otherwise exact at the nodes
-    double lowest, highest;  // that a node can be: the range of the 16-bit form
-    double (*exact)(double x, double y, int nodes);
-
-    std::string name() const { return std::string("ggx_") + quantity; }
-    TableInfo info() const;
-};
-
-// A levelled node of E_ss may lie a little above 1.
-const Definition definitions[] = {
-    {"E_ss", table_nodes, true, 0, 65535.0 / 65000, E_ss},
-    {"E_avg", 1, true, 0, 1, E_avg},
-    {"falloff", table_nodes, false, -1, 0.25, falloff},
-    {"dip", table_nodes, false, -0.06, 0.06, dip},
-};
-
-TableInfo Definition::info() const
-{
-    const std::string x = "sqrt(mu / (mu + alpha (1 - mu)))", y = "sqrt(alpha)";
-    TableInfo i;
-    i.quantity = quantity;
-    i.distribution = "ggx";
-    i.axis_x = height > 1 ? x : y;
-    i.axis_y = height > 1 ? y : "";
-    i.method = "Gauss-Legendre over the disc of upward slopes";
-    if (fitted) i.method += ", nodes levelled for the least largest error";
-    i.nodes = node_accuracy;
-    i.error_kind = fitted ? "relative" : "absolute";
-    i.offset = lowest;
-    i.scale = (highest - lowest) / 65535;
-    return i;
-}
-
-const Definition& definition_of(const std::string& name)
-{
-    std::string known;
-    for (const Definition& d : definitions)
+    static std::mutex mutex;
+    static Family last;
+    static std::shared_ptr<const Lattice> kept;
     {
-        if (d.name() == name) return d;
-        known += (known.empty() ? "" : ", ") + d.name();
+        const std::lock_guard<std::mutex> lock(mutex);
+        if (kept && last == d.family) return kept;
     }
-    throw std::invalid_argument("no table is called '" + name + "'; there are " + known);
+    auto lattice = std::make_shared<const Lattice>(integrate(d, progress));
+    const std::lock_guard<std::mutex> lock(mutex);
+    last = d.family;
+    kept = lattice;
+    return lattice;
 }
-
-// Points between the nodes, with the exact value there.
-struct Check
-{
-    std::size_t corner;  // index of the node below
-    double u, v;         // place in the cell, in [0, 1]
-    double exact;
-};
 
 class Fit
 {
 public:
-    Fit(const Definition& definition, const BakeProgress& progress)
-        : _definition(definition), _width(table_nodes), _height(definition.height)
+    Fit(const Definition& definition, const Lattice& lattice)
+        : _definition(definition), _lattice(lattice)
     {
-        const int last = _height > 1 ? 6 : 32;  // checks along the side of a cell
-        const int rows = std::max(_height - 1, 1);
-        const double dx = 1.0 / (_width - 1), dy = _height > 1 ? 1.0 / (_height - 1) : 0;
-        for (int j = 0; j < _height; ++j)
-            for (int i = 0; i < _width; ++i)
-                _nodes.push_back(definition.exact(i * dx, j * dy, node_accuracy));
-        for (int j = 0; j < rows; ++j)
-        {
-            if (progress && !progress(static_cast<double>(j) / rows)) throw BakeStopped();
-            for (int i = 0; i + 1 < _width; ++i)
-                for (int b = 0; b <= (_height > 1 ? last : 0); ++b)
-                    for (int a = 0; a <= last; ++a)
-                    {
-                        const double u = static_cast<double>(a) / last,
-                                     v = static_cast<double>(b) / last;
-                        _checks.push_back(
-                            {static_cast<std::size_t>(j * _width + i), u, v,
-                             definition.exact((i + u) * dx, (j + v) * dy, check_accuracy)});
-                    }
-        }
-        if (progress) progress(1);
+        const int n = lattice.between;
+        for (int k = 0; k < definition.depth; ++k)
+            for (int j = 0; j < definition.height; ++j)
+                for (int i = 0; i < definition.width; ++i)
+                    _nodes.push_back(exact(i * n, j * n, k * n));
+        for (int k = 0; k < lattice.depth; ++k)
+            for (int j = 0; j < lattice.height; ++j)
+                for (int i = 0; i < lattice.width; ++i)
+                    if (definition.family.promised(coordinate(i, lattice.width),
+                                                   coordinate(j, lattice.height),
+                                                   coordinate(k, lattice.depth)))
+                        _checks.push_back(check(i, j, k));
     }
 
     // Moves each node by half of what its neighbourhood errs on the mean of both sides, until
     // nothing moves.
     void level()
     {
+        // In the middle of a cell all its nodes are near.
+        const double nearby = _definition.depth > 1 ? 0.12 : 0.2;
         for (int round = 0; round < 200; ++round)
         {
             std::vector<double> above(_nodes.size(), -1), below(_nodes.size(), 1);
             for (const Check& c : _checks)
             {
                 const double e = error(c);
-                for (int k = 0; k < 4; ++k)
+                for (std::size_t corner = 0; corner < 8; ++corner)
                 {
-                    if (weight(c, k) <= 0.2) continue;
-                    const std::size_t n = node(c, k);
+                    if (c.weight[corner] <= nearby) continue;
+                    const std::size_t n = c.node + _offset[corner];
                     above[n] = std::max(above[n], e);
                     below[n] = std::min(below[n], e);
                 }
             }
             for (std::size_t n = 0; n < _nodes.size(); ++n)
-                _nodes[n] =
-                    std::min(_definition.highest, _nodes[n] * (1 - 0.2 * (above[n] + below[n])));
+                if (above[n] >= below[n])
+                    _nodes[n] = std::clamp(_nodes[n] * (1 - 0.2 * (above[n] + below[n])),
+                                           _definition.lowest, _definition.highest);
         }
     }
 
-    // Of what look-ups find: with the nodes in their 16-bit form.
-    double largest_error()
+    // To what the file holds.
+    void round_to_half()
     {
-        const TableInfo info = _definition.info();
-        const std::vector<double> exact = _nodes;
+        for (double& n : _nodes) n = static_cast<double>(Imath::half(static_cast<float>(n)));
+    }
+
+    // To what look-ups find.
+    void round_to_stored()
+    {
+        const TableInfo& info = _definition.info;
         for (double& n : _nodes)
-            n = info.offset + info.scale * std::round((n - info.offset) / info.scale);
+            n = info.offset +
+                info.scale * std::clamp(std::round((n - info.offset) / info.scale), 0.0, 65535.0);
+    }
+
+    double largest_error() const
+    {
         double largest = 0;
         for (const Check& c : _checks) largest = std::max(largest, std::abs(error(c)));
-        _nodes = exact;
         return largest;
     }
 
-    const std::vector<double>& nodes() const { return _nodes; }
+    std::vector<float> nodes() const { return {_nodes.begin(), _nodes.end()}; }
 
 private:
-    static double weight(const Check& c, int k)
+    // A point of the lattice, with the exact value there and the weights of the nodes about it.
+    struct Check
     {
-        return ((k & 1) ? c.u : 1 - c.u) * ((k & 2) ? c.v : 1 - c.v);
-    }
-    std::size_t node(const Check& c, int k) const
+        std::size_t node;  // the one below on every axis
+        double weight[8];
+        double exact;
+    };
+
+    double exact(int i, int j, int k) const
     {
-        return c.corner + ((k & 1) ? 1u : 0u) +
-               ((k & 2) && _height > 1 ? static_cast<std::size_t>(_width) : 0u);
+        return _definition.value(_lattice.values[_lattice.at(i, j, k)]);
     }
+
+    Check check(int i, int j, int k)
+    {
+        const int n = _lattice.between, place[] = {i, j, k};
+        const int length[] = {_definition.width, _definition.height, _definition.depth};
+        int low[3];
+        double fraction[3];
+        for (int axis = 0; axis < 3; ++axis)
+        {
+            low[axis] = std::max(0, std::min(place[axis] / n, length[axis] - 2));
+            fraction[axis] =
+                length[axis] > 1 ? static_cast<double>(place[axis]) / n - low[axis] : 0;
+        }
+        Check c;
+        c.node = index((low[2] * length[1] + low[1]) * length[0] + low[0]);
+        c.exact = exact(i, j, k);
+        for (int corner = 0; corner < 8; ++corner)
+        {
+            double weight = 1;
+            int offset = 0;
+            for (int axis = 2; axis >= 0; --axis)
+            {
+                const bool high = corner >> axis & 1;
+                weight *= high ? fraction[axis] : 1 - fraction[axis];
+                offset = offset * length[axis] + (high && length[axis] > 1);
+            }
+            c.weight[corner] = weight;
+            _offset[corner] = index(offset);
+        }
+        return c;
+    }
+
     double error(const Check& c) const
     {
         double value = 0;
-        for (int k = 0; k < 4; ++k) value += weight(c, k) * _nodes[node(c, k)];
-        if (!_definition.fitted) return value - c.exact;
-        return std::min(value, 1.0) / c.exact - 1;
+        for (std::size_t corner = 0; corner < 8; ++corner)
+            if (c.weight[corner] > 0) value += c.weight[corner] * _nodes[c.node + _offset[corner]];
+        return _definition.fitted ? std::min(value, 1.0) / c.exact - 1 : value - c.exact;
     }
 
-    Definition _definition;
-    int _width, _height;
+    const Definition& _definition;
+    const Lattice& _lattice;
     std::vector<double> _nodes;
     std::vector<Check> _checks;
+    std::size_t _offset[8] = {};
 };
+
+void append(std::vector<std::string>& names, const std::vector<std::string>& more)
+{
+    names.insert(names.end(), more.begin(), more.end());
+}
 
 }  // namespace
 
-std::vector<std::string> bakeable_tables()
+std::vector<std::string> compiled_in_tables()
 {
-    std::vector<std::string> names;
-    for (const Definition& d : definitions) names.push_back(d.name());
+    return {"ggx_E_ss", "ggx_E_avg", "ggx_falloff", "ggx_dip"};
+}
+
+std::vector<std::string> shipped_tables()
+{
+    std::vector<std::string> names = compiled_in_tables();
+    // By family, so that each is integrated once.
+    for (const char* distribution : {"beckmann", "gtr", "std"})
+        for (const char* quantity : {"E_ss", "falloff", "dip", "E_avg"})
+            names.push_back(std::string(distribution) + "_" + quantity);
+    append(names, dielectric_table_names("ggx"));
+    append(names, dielectric_table_names("beckmann"));
     return names;
 }
 
-double exact_value(const std::string& name, double x, double y, int nodes)
+std::vector<std::string> dielectric_table_names(const std::string& distribution, double gamma)
 {
-    return definition_of(name).exact(x, y, nodes);
+    TableInfo info;
+    info.distribution = distribution;
+    info.gamma = distribution == "gtr" || distribution == "std" ? gamma : 0;
+    std::vector<std::string> names;
+    for (const char* side : {"outside", "inside"})
+        for (const char* shadowing : {"correlated", "beta"})
+            for (const char* quantity : {"E_S", "R_share"})
+            {
+                info.side = side;
+                info.transmission_shadowing = shadowing;
+                info.quantity = quantity;
+                names.push_back(table_name(info));
+            }
+    return names;
+}
+
+void require_bakeable(const std::string& name) { Definition::of(name); }
+
+double exact_value(const std::string& name, const TablePoint& at, int nodes)
+{
+    const Definition d = Definition::of(name);
+    return d.value(d.family.row({at.x}, at.y, at.z, nodes)[0]);
+}
+
+bool is_error_promised(const std::string& name, const TablePoint& at)
+{
+    return Definition::of(name).family.promised(at.x, at.y, at.z);
+}
+
+double interpolated(const TableView& table, const TablePoint& at)
+{
+    if (table.depth > 1) return table.at(at.x, at.y, at.z);
+    return table.height > 1 ? table.at(at.x, at.y) : table.at(at.x);
 }
 
 Table bake(const std::string& name, const BakeProgress& progress)
 {
-    const Definition& d = definition_of(name);
-    Fit fit(d, progress);
+    const Definition d = Definition::of(name);
+    const std::shared_ptr<const Lattice> lattice = lattice_of(d, progress);
+    Fit fit(d, *lattice);
     if (d.fitted) fit.level();
 
-    TableInfo info = d.info();
+    if (d.half) fit.round_to_half();
+    TableInfo info = d.info;
+    std::vector<float> nodes = fit.nodes();
+    fit.round_to_stored();
     info.error = fit.largest_error();
-    return Table(info, table_nodes, d.height,
-                 std::vector<float>(fit.nodes().begin(), fit.nodes().end()));
+    return Table(info, d.width, d.height, d.depth, std::move(nodes));
 }
 
 }  // namespace luts

@@ -92,10 +92,7 @@ public:
 
 private:
     // Where total reflection begins; for eta > 1 where Fresnel's term rises steeply.
-    double turning_angle() const
-    {
-        return std::acos(std::min(1.0, std::sqrt(std::abs(_k))));
-    }
+    double turning_angle() const { return std::acos(std::min(1.0, std::sqrt(std::abs(_k)))); }
 
     // The angle at which light refracted in the plane of wo and n leaves along the surface:
     // theta_t - theta = pi / 2 - theta_o. Only for eta < 1, and beyond the critical angle; else 0.
@@ -132,8 +129,7 @@ private:
 
         const auto over = [&](double from, double to, const auto& f) {
             if (to - from < 1e-14) return;
-            const double first = std::asinh(from / width),
-                         range = std::asinh(to / width) - first;
+            const double first = std::asinh(from / width), range = std::asinh(to / width) - first;
             for (std::size_t i = 0; i < _rule.x.size(); ++i)
             {
                 const double t = _rule.x[i], y = first + range * t * t * (3 - 2 * t);

@@ -20,8 +20,9 @@ std::string embedded(const Table& table)
     out << "};\n";
     out.precision(9);
     out << "constexpr TableView " << table.name() << " = {" << table.name() << "_data, "
-        << table.width() << ", " << table.height() << ", 1, static_cast<float>(" << table.info().offset
-        << "), static_cast<float>(" << table.info().scale << ")};\n";
+        << table.width() << ", " << table.height() << ", " << table.depth()
+        << ", static_cast<float>(" << table.info().offset << "), static_cast<float>("
+        << table.info().scale << ")};\n";
     return out.str();
 }
 

@@ -13,6 +13,7 @@
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStringAttribute.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -63,8 +64,11 @@ void for_each_field(Info& info, const Visit& visit)
     visit("quantity", info.quantity);
     visit("distribution", info.distribution);
     visit("gamma", info.gamma);
+    visit("transmission_shadowing", info.transmission_shadowing);
+    visit("side", info.side);
     visit("axis_x", info.axis_x);
     visit("axis_y", info.axis_y);
+    visit("axis_z", info.axis_z);
     visit("method", info.method);
     visit("nodes", info.nodes);
     visit("error", info.error);
@@ -74,17 +78,25 @@ void for_each_field(Info& info, const Visit& visit)
     visit("scale", info.scale);
 }
 
+bool fits_half(const Table& table)
+{
+    return std::all_of(table.values().begin(), table.values().end(),
+                       [](float v) { return static_cast<float>(Imath::half(v)) == v; });
+}
+
 Table read(const std::filesystem::path& file)
 {
     Imf::InputFile in(file.string().c_str());
     const Imf::Header& header = in.header();
 
+    // First of all whether it is of this definition: of another, nothing else is known to be there.
     TableInfo info;
-    for_each_field(info, [&](const char* name, auto& value) { extract(header, name, value); });
+    extract(header, "definition", info.definition);
     if (info.definition != table_definition)
         throw std::runtime_error("it was baked by definition " + std::to_string(info.definition) +
                                  ", this library reads definition " +
                                  std::to_string(table_definition) + ": bake it again");
+    for_each_field(info, [&](const char* name, auto& value) { extract(header, name, value); });
     if (!(std::isfinite(info.offset) && std::isfinite(info.scale) && info.scale > 0))
         throw std::runtime_error("its scale and offset are no usable numbers");
 
@@ -94,9 +106,14 @@ Table read(const std::filesystem::path& file)
         throw std::runtime_error("it has " + std::to_string(size.x) + " x " +
                                  std::to_string(size.y) + " nodes; 2 x 1 to " +
                                  std::to_string(largest_side) + " a side are accepted");
+    int depth = 1;
+    extract(header, "depth", depth);
+    if (depth < 1 || size.y % depth != 0)
+        throw std::runtime_error("its " + std::to_string(size.y) + " rows are not " +
+                                 std::to_string(depth) + " slices");
     const Imf::Channel* channel = header.channels().findChannel("Y");
-    if (!channel || channel->type != Imf::FLOAT)
-        throw std::runtime_error("it has no float channel 'Y'");
+    if (!channel || (channel->type != Imf::FLOAT && channel->type != Imf::HALF))
+        throw std::runtime_error("it has no float or half channel 'Y'");
 
     std::vector<float> values(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
     Imf::FrameBuffer frame;
@@ -105,7 +122,7 @@ Table read(const std::filesystem::path& file)
     in.readPixels(window.min.y, window.max.y);
     for (float v : values)
         if (!std::isfinite(v)) throw std::runtime_error("it holds a number that is not finite");
-    return Table(info, size.x, size.y, std::move(values));
+    return Table(info, size.x, size.y / depth, depth, std::move(values));
 }
 
 }  // namespace
@@ -113,16 +130,23 @@ Table read(const std::filesystem::path& file)
 void write_table(const std::filesystem::path& file, const Table& table)
 {
     replace_file(file, [&](const std::filesystem::path& temporary) {
-        Imf::Header header(table.width(), table.height());
-        header.channels().insert("Y", Imf::Channel(Imf::FLOAT));
+        Imf::Header header(table.width(), table.height() * table.depth());
+        const Imf::PixelType type = fits_half(table) ? Imf::HALF : Imf::FLOAT;
+        header.channels().insert("Y", Imf::Channel(type));
         for_each_field(table.info(),
                        [&](const char* name, const auto& value) { insert(header, name, value); });
+        insert(header, "depth", table.depth());
 
+        const std::vector<Imath::half> halves(table.values().begin(), table.values().end());
         Imf::FrameBuffer frame;
-        frame.insert("Y", Imf::Slice::Make(Imf::FLOAT, table.values().data(), header.dataWindow()));
+        frame.insert("Y", Imf::Slice::Make(type,
+                                           type == Imf::HALF
+                                               ? static_cast<const void*>(halves.data())
+                                               : static_cast<const void*>(table.values().data()),
+                                           header.dataWindow()));
         Imf::OutputFile out(temporary.string().c_str(), header);
         out.setFrameBuffer(frame);
-        out.writePixels(table.height());
+        out.writePixels(table.height() * table.depth());
     });
 }
 

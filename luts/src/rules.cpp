@@ -15,7 +15,8 @@ const QuadratureRule& rule_of(int nodes)
     static std::map<int, QuadratureRule> rules;
     const std::lock_guard<std::mutex> lock(mutex);
     const auto at = rules.find(nodes);
-    return at != rules.end() ? at->second : rules.emplace(nodes, gauss_legendre(nodes)).first->second;
+    return at != rules.end() ? at->second
+                             : rules.emplace(nodes, gauss_legendre(nodes)).first->second;
 }
 
 }  // namespace luts

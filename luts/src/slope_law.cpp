@@ -23,8 +23,8 @@ constexpr double beckmann_gamma = 1e5;
 // (e^x - 1) / x.
 double relative_expm1(double x) { return std::abs(x) < 1e-12 ? 1 + 0.5 * x : std::expm1(x) / x; }
 
-// The regularised incomplete beta function I_x(a, b) by its continued fraction, evaluated by Lentz's
-// method (DLMF 8.17.22).
+// The regularised incomplete beta function I_x(a, b) by its continued fraction, evaluated by
+// Lentz's method (DLMF 8.17.22).
 double incomplete_beta(double a, double b, double x)
 {
     if (x <= 0) return 0;
@@ -217,8 +217,7 @@ double SlopeLaw::projected_area(double cos_theta) const
     const double s = cos_theta / sin_theta;
     switch (_kind)
     {
-        case Kind::beckmann:
-        {
+        case Kind::beckmann: {
             const double a = s / _alpha;
             return 0.5 * (cos_theta * (1 + std::erf(a)) +
                           _alpha * sin_theta * std::exp(-a * a) / std::sqrt(pi));

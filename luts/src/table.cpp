@@ -4,19 +4,37 @@
 #include <regain/luts/table.h>
 
 #include <cmath>
+#include <sstream>
 #include <stdexcept>
 
 REGAIN_NAMESPACE_BEGIN
 namespace luts {
 
-Table::Table(TableInfo info, int width, int height, std::vector<float> values)
-    : _info(std::move(info)), _width(width), _height(height), _values(std::move(values))
+std::string table_name(const TableInfo& info)
 {
-    if (width < 2 || height < 1 ||
-        _values.size() != static_cast<std::size_t>(width) * static_cast<std::size_t>(height))
+    std::ostringstream name;
+    name << info.distribution;
+    if (info.gamma != 0) name << "_" << info.gamma;
+    name << "_" << info.quantity;
+    if (!info.transmission_shadowing.empty()) name << "_" << info.transmission_shadowing;
+    if (!info.side.empty()) name << "_" << info.side;
+    return name.str();
+}
+
+Table::Table(TableInfo info, int width, int height, int depth, std::vector<float> values)
+    : _info(std::move(info)),
+      _width(width),
+      _height(height),
+      _depth(depth),
+      _values(std::move(values))
+{
+    if (width < 2 || height < 1 || depth < 1 ||
+        _values.size() != static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
+                              static_cast<std::size_t>(depth))
         throw std::invalid_argument("table " + name() + ": " + std::to_string(_values.size()) +
                                     " values do not fill " + std::to_string(width) + " x " +
-                                    std::to_string(height) + " nodes (at least 2 x 1)");
+                                    std::to_string(height) + " x " + std::to_string(depth) +
+                                    " nodes (at least 2 x 1 x 1)");
     _stored.reserve(_values.size());
     for (float v : _values)
     {
@@ -36,6 +54,7 @@ TableView Table::view() const
     v.data = _stored.data();
     v.width = _width;
     v.height = _height;
+    v.depth = _depth;
     v.offset = static_cast<float>(_info.offset);
     v.scale = static_cast<float>(_info.scale);
     return v;

@@ -3,6 +3,12 @@
 
 /// @file
 /// Baking: from a definition to a table, by deterministic quadrature.
+///
+/// Names of tables are
+///     DISTRIBUTION_QUANTITY                   ggx, beckmann, gtr, std; E_ss, E_avg, falloff, dip
+///     DISTRIBUTION_QUANTITY_SHADOWING_SIDE    E_S, R_share; correlated, beta; outside, inside
+/// where in the second kind gtr and std are followed by one gamma, gtr_1.3_E_S_beta_inside: over
+/// gamma, too, the table would have four axes.
 
 #pragma once
 
@@ -17,7 +23,8 @@
 REGAIN_NAMESPACE_BEGIN
 namespace luts {
 
-/// Called with the fraction done, in [0, 1]; returns false to stop.
+/// Called with the fraction done, in [0, 1], always by the thread that bakes; returns false to
+/// stop.
 using BakeProgress = std::function<bool(double)>;
 
 /// Thrown by bake when its progress callback said stop.
@@ -26,20 +33,46 @@ struct BakeStopped : std::runtime_error
     BakeStopped() : std::runtime_error("stopped while baking") {}
 };
 
-/// Names of the tables that bake knows: "ggx_E_ss", "ggx_E_avg", "ggx_falloff", "ggx_dip".
-REGAIN_LUTS_API std::vector<std::string> bakeable_tables();
+/// Names of the tables that are compiled in: "ggx_E_ss", "ggx_E_avg", "ggx_falloff", "ggx_dip".
+REGAIN_LUTS_API std::vector<std::string> compiled_in_tables();
 
-/// The table of that name; throws std::invalid_argument, which lists the names, for any other.
+/// Names of the tables that are shipped, the compiled-in ones first.
+REGAIN_LUTS_API std::vector<std::string> shipped_tables();
+
+/// The dielectric tables of one distribution: both quantities and sides of each form of shadowing.
+/// gamma is ignored by distributions without a tail.
+REGAIN_LUTS_API std::vector<std::string> dielectric_table_names(const std::string& distribution,
+                                                                double gamma = 0);
+
+/// Throws std::invalid_argument, which says what names there are, unless bake knows this one.
+REGAIN_LUTS_API void require_bakeable(const std::string& name);
+
+/// The table of that name, on all cores; throws as require_bakeable does.
 ///
-/// E_ss and E_avg are smooth but curved, and straight lines between exact nodes err to one side. So
-/// their nodes are moved until the largest relative errors above and below are equal in each
-/// neighbourhood: it halves the error at no cost. Nodes of E_ss may come to lie a little above 1;
-/// look-ups are limited to 1.
+/// Albedos are smooth but curved, and straight lines between exact nodes err to one side. So their
+/// nodes are moved until the largest relative errors above and below are equal in each
+/// neighbourhood: it halves the error at no cost. Nodes may come to lie a little above 1; look-ups
+/// are limited to 1.
+///
+/// Tables that come out of the same integral, as E_S and R_share, are quick to bake one after the
+/// other: what was integrated last is remembered.
 REGAIN_LUTS_API Table bake(const std::string& name, const BakeProgress& progress = {});
 
-/// Exact value of what the table holds, at coordinates x, y in [0, 1] of its axes (y is ignored
-/// with one axis); by quadrature of `nodes` nodes a piece.
-REGAIN_LUTS_API double exact_value(const std::string& name, double x, double y, int nodes);
+/// Coordinates in [0, 1] of a table's axes; those of axes that are not there are ignored.
+struct TablePoint
+{
+    double x = 0, y = 0, z = 0;
+};
+
+/// Exact value of what the table holds at a point, by quadrature of `nodes` nodes a piece.
+REGAIN_LUTS_API double exact_value(const std::string& name, const TablePoint& at, int nodes);
+
+/// Whether the table's error is promised at a point: distributions with a tail from alpha 5e-4 and
+/// mu 7e-4 on, dielectrics from mu 0.01 on, anything else everywhere.
+REGAIN_LUTS_API bool is_error_promised(const std::string& name, const TablePoint& at);
+
+/// The number of a table at a point, bilinear, as look-ups find it but for the limit to 1.
+REGAIN_LUTS_API double interpolated(const TableView& table, const TablePoint& at);
 
 }  // namespace luts
 REGAIN_NAMESPACE_END

@@ -2,8 +2,9 @@
 // Copyright Contributors to the Regain project
 
 /// @file
-/// Tables as OpenEXR files: one float channel "Y" of width x height pixels, and every field of
-/// TableInfo as an attribute "regain:FIELD" of the header.
+/// Tables as OpenEXR files: one channel "Y" of width x height pixels, the slices of a third
+/// axis below each other, "regain:depth" of them, and every field of TableInfo as an attribute
+/// "regain:FIELD" of the header. The channel is of half floats where that loses nothing.
 
 #pragma once
 

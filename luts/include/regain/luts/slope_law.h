@@ -8,9 +8,11 @@
 ///
 ///   GGX       P22 = 1 / (pi a^2 (1 + r^2/a^2)^2)
 ///   Beckmann  P22 = exp(-r^2/a^2) / (pi a^2)
-///   GTR       P22 = c (1 + r^2)^(g-2) (a^2 + r^2)^-g        Burley 2012, B.2, as slopes: GGX at g = 2,
+///   GTR       P22 = c (1 + r^2)^(g-2) (a^2 + r^2)^-g        Burley 2012, B.2, as slopes: GGX at g
+///   = 2,
 ///             and at a = 1 for every g
-///   STD       P22 = (1 + r^2/k^2)^-g / (pi a^2), k^2 = (g - 1) a^2      Ribardiere et al. 2017: GGX
+///   STD       P22 = (1 + r^2/k^2)^-g / (pi a^2), k^2 = (g - 1) a^2      Ribardiere et al. 2017:
+///   GGX
 ///             at g = 2, Beckmann as g grows
 ///
 ///   sigma(w) = cos theta (1 + Lambda) = int P22 max(0, cos theta + p sin theta) dp dq

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+/// @file
+/// The tables of every distribution, each loaded when it is first asked for, once per process, and
+/// kept until its end. Those of GGX mirrors are compiled in; no file is opened for them. Any thread
+/// may call anything here.
+///
+/// Files are named TABLE.exr, see bake.h, and looked for in this order:
+///   1. the folders of set_table_folders
+///   2. those of the environment variable REGAIN_LUTS, a list separated by colons
+///   3. share/regain/luts of the installation that this library, or a program that holds it, is
+///      part of, wherever that has been moved to
+///   4. the folder they were installed to
+///   5. the source tree the library was built from
+/// The first file of the name counts, stale or not.
+
+#pragma once
+
+#include <regain/closures/dielectric.h>
+#include <regain/luts/table.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+REGAIN_NAMESPACE_BEGIN
+namespace luts {
+
+/// Folders to look in before all others. What is loaded already stays.
+REGAIN_LUTS_API void set_table_folders(std::vector<std::filesystem::path> folders);
+
+/// All folders that are looked in, in order.
+REGAIN_LUTS_API std::vector<std::filesystem::path> table_folders();
+
+/// E_ss, E_avg and the Fresnel moments of a distribution: "ggx", "beckmann", "gtr" or "std". Throws
+/// std::invalid_argument for any other, std::runtime_error where a file is missing, broken or
+/// stale; it names the file, the places that were looked in and the command that bakes it.
+REGAIN_LUTS_API MicrofacetTables microfacet_tables(const std::string& distribution);
+
+/// The dielectric tables of a distribution; errors as above. gtr and std have tables for one gamma
+/// each, none of which is shipped: bake them.
+REGAIN_LUTS_API DielectricTables dielectric_tables(const std::string& distribution,
+                                                   TransmissionShadowing shadowing,
+                                                   double gamma = 0);
+
+/// One table by its name, compiled in or loaded; errors as above.
+REGAIN_LUTS_API TableView table_named(const std::string& name);
+
+/// Files that have been opened and read so far by this process, in order.
+REGAIN_LUTS_API std::vector<std::filesystem::path> loaded_files();
+
+}  // namespace luts
+REGAIN_NAMESPACE_END

@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+#include "definition.h"
+
+#include <regain/closures/dielectric_tables.h>
+#include <regain/closures/fresnel_moments.h>
+#include <regain/closures/tail.h>
+#include <regain/luts/albedo_integral.h>
+#include <regain/luts/dielectric_integral.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+REGAIN_NAMESPACE_BEGIN
+namespace luts {
+namespace {
+
+constexpr int table_nodes = 32;
+
+// Row 0 is the limit of vanishing alpha at fixed x, which alpha 0 itself does not have.
+constexpr double smallest_alpha = 1e-6;
+
+// The argument of a growing function in [lo, hi] where it has the value `wanted`.
+template <class F>
+double solve(double wanted, double lo, double hi, const F& f)
+{
+    for (int i = 0; i < 100; ++i)
+    {
+        const double middle = 0.5 * (lo + hi);
+        (f(middle) < wanted ? lo : hi) = middle;
+    }
+    return 0.5 * (lo + hi);
+}
+
+// The inverses of the axes in closures/table.h and closures/dielectric_tables.h.
+
+double alpha_of_root(double y) { return std::max(y * y, smallest_alpha); }
+double alpha_of_tail_width(double y)
+{
+    if (y >= 1) return 1;
+    return std::max(solve(y, 0, 1, [](double alpha) { return tail_width(alpha); }), smallest_alpha);
+}
+double mu_of_stretched_cosine(double x, double alpha)
+{
+    const double r = x * x;
+    return r * alpha / (1 - r + r * alpha);
+}
+double mu_of_tail_cosine(double x, double alpha)
+{
+    if (x >= 1) return 1;
+    // By angle, since near normal incidence the axis runs evenly in that.
+    const double angle = solve(x, 0, 0.5 * std::acos(-1.0),
+                               [=](double t) { return tail_cosine(std::sin(t), alpha); });
+    return std::sin(angle);
+}
+double mu_of_critical_cosine(double x, double alpha, double eta)
+{
+    if (x >= 1) return 1;
+    return solve(x, 0, 1,
+                 [=](double mu) { return detail::critical_cosine_coordinate(mu, alpha, eta); });
+}
+double eta_of_coordinate(double z, bool inside)
+{
+    // From inside, z = 0 is the limit at fixed x, which eta = 1 itself does not have.
+    const double root = inside ? std::max(z, 1e-4) : z, q = root * root * 3 / 5;
+    return inside ? (1 - q) / (1 + q) : (1 + q) / (1 - q);
+}
+
+double first(const Family::Values& v) { return v[0]; }
+double second(const Family::Values& v) { return v[1]; }
+double third(const Family::Values& v) { return v[2]; }
+double correlated_sum(const Family::Values& v) { return v[0] + v[1]; }
+double beta_sum(const Family::Values& v) { return v[0] + v[2]; }
+double correlated_share(const Family::Values& v) { return v[0] / (v[0] + v[1]); }
+double beta_share(const Family::Values& v) { return v[0] / (v[0] + v[2]); }
+
+const char* const distributions[] = {"ggx", "beckmann", "gtr", "std"};
+const char* const directional[] = {"E_ss", "E_avg", "falloff", "dip"};
+const char* const shadowings[] = {"correlated", "beta"};
+const char* const sides[] = {"outside", "inside"};
+
+bool is_tailed(const std::string& distribution)
+{
+    return distribution == "gtr" || distribution == "std";
+}
+
+[[noreturn]] void refuse(const std::string& name, const std::string& why)
+{
+    throw std::invalid_argument(
+        "no table is called '" + name + "'" + why +
+        "; there are DISTRIBUTION_QUANTITY with ggx, beckmann, gtr, std and E_ss, E_avg, falloff, "
+        "dip, and DISTRIBUTION_QUANTITY_SHADOWING_SIDE with E_S, R_share; correlated, beta; "
+        "outside, inside; there gtr and std take their gamma: gtr_1.3_E_S_beta_inside");
+}
+
+}  // namespace
+
+bool Family::operator==(const Family& other) const
+{
+    return kind == other.kind && distribution == other.distribution && gamma == other.gamma &&
+           inside == other.inside;
+}
+
+std::vector<Family::Values> Family::row(const std::vector<double>& xs, double y, double z,
+                                        int nodes) const
+{
+    std::vector<Values> values;
+    const bool tail_axis = has_tail_axis();
+    const auto tail_at = [&](double coordinate) {
+        if (!tail_axis) return gamma;
+        return distribution == "gtr" ? gtr_gamma(coordinate) : std_gamma(coordinate);
+    };
+    const auto alpha_at = [&](double coordinate) {
+        return tail_axis ? alpha_of_tail_width(coordinate) : alpha_of_root(coordinate);
+    };
+
+    if (kind == Kind::average)
+    {
+        for (double x : xs)
+        {
+            const SlopeLaw law = SlopeLaw::named(distribution, alpha_at(x), tail_at(y));
+            values.push_back({average_albedo(law, {nodes}), 0, 0});
+        }
+        return values;
+    }
+
+    const double alpha = alpha_at(y);
+    const SlopeLaw law = SlopeLaw::named(distribution, alpha, tail_at(z));
+    const double eta = eta_of_coordinate(z, inside);
+    for (double x : xs)
+    {
+        if (kind == Kind::dielectric)
+        {
+            const double mu = std::max(1e-6, inside ? mu_of_critical_cosine(x, alpha, eta)
+                                                    : mu_of_stretched_cosine(x, alpha));
+            const DielectricAlbedo a = dielectric_albedo(law, mu, eta, nodes);
+            values.push_back({a.reflected, a.transmitted_correlated, a.transmitted_beta});
+            continue;
+        }
+        const auto mu_at = [&](double coordinate) {
+            return tail_axis ? mu_of_tail_cosine(coordinate, alpha)
+                             : mu_of_stretched_cosine(coordinate, alpha);
+        };
+        // At mu = 0 all is reflected, but there is nothing left to take a mean of; next to it the
+        // limit can be read off.
+        const double mu = mu_at(std::max(x, 1e-3));
+        const AlbedoMoments m = albedo_moments(law, mu, {nodes});
+        const auto facet = FresnelMoments<double>::at(mu);
+        values.push_back({m.E_ss, m.falloff - facet.falloff, m.dip - facet.dip});
+        if (x < 1e-3) values.back()[0] = x > 0 ? albedo(law, mu_at(x), {}, {nodes}) : 1.0;
+    }
+    return values;
+}
+
+bool Family::promised(double x, double y, double z) const
+{
+    if (kind == Kind::average) return !has_tail_axis() || alpha_of_tail_width(x) >= 5e-4;
+    if (kind == Kind::dielectric)
+    {
+        const double alpha = alpha_of_root(y), eta = eta_of_coordinate(z, inside);
+        return (inside ? mu_of_critical_cosine(x, alpha, eta) : mu_of_stretched_cosine(x, alpha)) >=
+               0.01;
+    }
+    if (!has_tail_axis()) return true;
+    const double alpha = alpha_of_tail_width(y);
+    return alpha >= 5e-4 && mu_of_tail_cosine(x, alpha) >= 7e-4;
+}
+
+Definition Definition::of(const std::string& name)
+{
+    Definition d;
+    d.value = first;
+    std::string rest;
+    for (const char* known : distributions)
+        if (name.rfind(std::string(known) + "_", 0) == 0)
+        {
+            d.family.distribution = known;
+            rest = name.substr(d.family.distribution.size() + 1);
+        }
+    if (rest.empty()) refuse(name, "");
+    const bool tailed = is_tailed(d.family.distribution);
+
+    TableInfo& info = d.info;
+    info.distribution = d.family.distribution;
+    d.depth = 1;
+
+    for (const char* quantity : directional)
+        if (rest == quantity)
+        {
+            info.quantity = quantity;
+            const bool average = rest == "E_avg";
+            d.family.kind = average ? Family::Kind::average : Family::Kind::directional;
+            d.fitted = average || rest == "E_ss";
+            d.value = rest == "falloff" ? second : rest == "dip" ? third : first;
+            info.method = "Gauss-Legendre over the disc of upward slopes";
+            if (d.fitted) info.method += ", nodes levelled for the least largest error";
+            info.error_kind = d.fitted ? "relative" : "absolute";
+            d.width = table_nodes;
+            d.height = average && !tailed ? 1 : table_nodes;
+            const std::string mu_axis =
+                tailed ? "3/4 (1 + ln((k + s) / (1 + s)) / ln(1 / k)) + 1/4 s / (1 + s), s = cot "
+                         "theta, k = 0.004 sqrt(alpha)"
+                       : "sqrt(mu / (mu + alpha (1 - mu)))";
+            const std::string alpha_axis =
+                tailed ? "0.7 ln(1 + 1000 alpha) / ln 1001 + 0.3 alpha" : "sqrt(alpha)";
+            const std::string tail_axis = tailed ? info.distribution + "_tail(gamma)" : "";
+            info.axis_x = average ? alpha_axis : mu_axis;
+            info.axis_y = average ? tail_axis : alpha_axis;
+            if (tailed)
+            {
+                if (!average)
+                {
+                    info.axis_z = tail_axis;
+                    d.depth = table_nodes;
+                }
+                d.half = true;
+                d.node_accuracy = 40;
+                d.check_accuracy = 20;
+                info.scale = rest == "dip" ? 0x1p-19 : rest == "falloff" ? 0x1p-15 : 0x1p-16;
+                info.offset = rest == "dip" ? -0x1p-4 : rest == "falloff" ? -1 : 0x1p-16;
+                d.lowest = info.offset;
+                d.highest = info.offset + 65535 * info.scale;
+            }
+            else
+            {
+                d.node_accuracy = 64;
+                d.check_accuracy = 24;  // for the many points between them; good to 1e-6
+                // A levelled node of E_ss may lie a little above 1.
+                d.lowest = rest == "falloff" ? -1 : rest == "dip" ? -0.06 : 0;
+                d.highest = rest == "falloff" ? 0.25
+                            : rest == "dip"   ? 0.06
+                            : rest == "E_ss"  ? 65535.0 / 65000
+                                              : 1;
+                info.offset = d.lowest;
+                info.scale = (d.highest - d.lowest) / 65535;
+            }
+            info.nodes = d.node_accuracy;
+            return d;
+        }
+
+    if (tailed)
+    {
+        char* end = nullptr;
+        d.family.gamma = std::strtod(rest.c_str(), &end);
+        if (end == rest.c_str() || *end != '_') refuse(name, "");
+        const bool gtr = d.family.distribution == "gtr";
+        const double low = gtr ? gtr_min_gamma : std_min_gamma,
+                     high = gtr ? gtr_max_gamma : std_max_gamma;
+        if (!(d.family.gamma >= low && d.family.gamma <= high))
+            refuse(name, ", its gamma is not within " + std::to_string(low) + " to " +
+                             std::to_string(high));
+        rest = end + 1;
+    }
+    info.gamma = d.family.gamma;
+    for (const char* shadowing : shadowings)
+        for (const char* side : sides)
+            for (const bool share : {false, true})
+            {
+                const std::string quantity = share ? "R_share" : "E_S";
+                if (rest != quantity + "_" + shadowing + "_" + side) continue;
+                const bool beta = shadowing == std::string("beta");
+                d.family.kind = Family::Kind::dielectric;
+                d.family.inside = side == std::string("inside");
+                info.quantity = quantity;
+                info.transmission_shadowing = shadowing;
+                info.side = side;
+                d.width = d.height = d.depth = table_nodes;
+                d.fitted = !share;
+                d.value = share ? (beta ? beta_share : correlated_share)
+                                : (beta ? beta_sum : correlated_sum);
+                info.axis_x = d.family.inside ? "critical_cosine_coordinate(mu, alpha, eta)"
+                                              : "sqrt(mu / (mu + alpha (1 - mu)))";
+                info.axis_y = "sqrt(alpha)";
+                info.axis_z = "sqrt(5/3 |eta - 1| / (eta + 1))";
+                info.method = "Gauss-Legendre over facets, polar about wo";
+                if (d.fitted) info.method += ", nodes levelled for the least largest error";
+                info.error_kind = d.fitted ? "relative" : "absolute";
+                d.node_accuracy = 28;
+                d.check_accuracy = 20;
+                info.nodes = d.node_accuracy;
+                info.scale = share ? 0x1p-15 : 0x1p-16;
+                info.offset = share ? 0 : 0x1p-16;
+                d.lowest = info.offset;
+                d.highest = 1;
+                d.half = true;
+                return d;
+            }
+    refuse(name, "");
+}
+
+}  // namespace luts
+REGAIN_NAMESPACE_END

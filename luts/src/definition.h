@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+#pragma once
+
+#include <regain/luts/bake.h>
+#include <regain/luts/slope_law.h>
+
+#include <array>
+
+REGAIN_NAMESPACE_BEGIN
+namespace luts {
+
+/// What is integrated together: the quantities of one distribution, in one pass over the facets.
+struct Family
+{
+    enum class Kind {
+        directional,  // E_ss, falloff, dip
+        average,      // E_avg
+        dielectric    // E^R, correlated E^T, E^T in the beta form
+    };
+    using Values = std::array<double, 3>;
+
+    Kind kind = Kind::directional;
+    std::string distribution;
+    double gamma = 0;  // 0: an axis, or none
+    bool inside = false;
+
+    bool has_tail_axis() const
+    {
+        return gamma == 0 && (distribution == "gtr" || distribution == "std");
+    }
+    bool operator==(const Family& other) const;
+
+    /// The values at (x, y, z) for every x of a row. Averages have their alpha along x, their tail
+    /// along y. `nodes` of the quadrature.
+    std::vector<Values> row(const std::vector<double>& x, double y, double z, int nodes) const;
+
+    /// Is (x, y, z) in the range that the error is promised for?
+    bool promised(double x, double y, double z) const;
+};
+
+/// One table.
+struct Definition
+{
+    Family family;
+    TableInfo info;  // all but the error
+    int width, height, depth;
+    bool fitted;             // levelled for the least largest relative error; else exact
+    double lowest, highest;  // that a node can be
+    int node_accuracy, check_accuracy;
+    bool half = false;  // nodes are rounded to half floats, for a small file
+    double (*value)(const Family::Values&);
+
+    /// Throws std::invalid_argument, which says what names there are.
+    static Definition of(const std::string& name);
+};
+
+}  // namespace luts
+REGAIN_NAMESPACE_END

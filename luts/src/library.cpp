@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+#include <regain/luts/library.h>
+
+#include <regain/luts/bake.h>
+#include <regain/luts/builtin.h>
+#include <regain/luts/exr.h>
+
+#include <dlfcn.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <sstream>
+#include <stdexcept>
+
+REGAIN_NAMESPACE_BEGIN
+namespace luts {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Tables stay where they are until the process ends: views of them are anywhere by then.
+struct Library
+{
+    std::mutex mutex;
+    std::map<std::string, std::unique_ptr<const Table>> tables;
+    std::vector<fs::path> folders, loaded;
+};
+
+Library& library()
+{
+    static Library* const one = new Library;  // outlives the destructors of other statics
+    return *one;
+}
+
+// The file that this code was loaded from: the shared library, or the program it is linked into.
+fs::path own_file()
+{
+    Dl_info info;
+    if (::dladdr(reinterpret_cast<const void*>(&table_folders), &info) == 0 || !info.dli_fname)
+        return {};
+    std::error_code ec;
+    const fs::path file = fs::canonical(info.dli_fname, ec);
+    return ec ? fs::path() : file;
+}
+
+std::vector<fs::path> folders_of(const Library& lib)
+{
+    std::vector<fs::path> folders = lib.folders;
+    if (const char* list = std::getenv("REGAIN_LUTS"))
+    {
+        std::istringstream in(list);
+        for (std::string folder; std::getline(in, folder, ':');)
+            if (!folder.empty()) folders.emplace_back(folder);
+    }
+    if (const fs::path own = own_file(); !own.empty())
+        for (const char* up : {REGAIN_LUTS_FROM_LIBRARY, REGAIN_LUTS_FROM_PROGRAM})
+            folders.push_back((own.parent_path() / up).lexically_normal());
+    folders.emplace_back(REGAIN_LUTS_INSTALLED);
+    folders.emplace_back(REGAIN_LUTS_SOURCE);
+
+    std::vector<fs::path> different;
+    for (const fs::path& folder : folders)
+        if (std::find(different.begin(), different.end(), folder) == different.end())
+            different.push_back(folder);
+    return different;
+}
+
+std::string bake_command(const std::string& name)
+{
+    return "; 'regain bake " + name + " -o FOLDER' bakes it, and REGAIN_LUTS=FOLDER finds it";
+}
+
+Table load(Library& lib, const std::string& name)
+{
+    std::string places;
+    for (const fs::path& folder : folders_of(lib))
+    {
+        const fs::path file = folder / (name + ".exr");
+        std::error_code ec;
+        if (!fs::exists(file, ec))
+        {
+            places += (places.empty() ? "" : ", ") + folder.string();
+            continue;
+        }
+        lib.loaded.push_back(file);
+        try
+        {
+            Table table = read_table(file);
+            if (table.name() == name) return table;
+            throw std::runtime_error("cannot use table '" + file.string() + "': it holds '" +
+                                     table.name() + "'");
+        }
+        catch (const std::runtime_error& e)
+        {
+            throw std::runtime_error(e.what() + bake_command(name));
+        }
+    }
+    throw std::runtime_error("there is no table '" + name + ".exr' in " + places +
+                             bake_command(name));
+}
+
+}  // namespace
+
+void set_table_folders(std::vector<fs::path> folders)
+{
+    Library& lib = library();
+    const std::lock_guard<std::mutex> lock(lib.mutex);
+    lib.folders = std::move(folders);
+}
+
+std::vector<fs::path> table_folders()
+{
+    Library& lib = library();
+    const std::lock_guard<std::mutex> lock(lib.mutex);
+    return folders_of(lib);
+}
+
+TableView table_named(const std::string& name)
+{
+    if (const TableView builtin = builtin_table(name)) return builtin;
+    require_bakeable(name);
+
+    Library& lib = library();
+    const std::lock_guard<std::mutex> lock(lib.mutex);
+    auto& table = lib.tables[name];
+    if (!table) table = std::make_unique<const Table>(load(lib, name));
+    return table->view();
+}
+
+MicrofacetTables microfacet_tables(const std::string& distribution)
+{
+    MicrofacetTables tables;
+    tables.E_ss = table_named(distribution + "_E_ss");
+    tables.E_avg = table_named(distribution + "_E_avg");
+    tables.falloff = table_named(distribution + "_falloff");
+    tables.dip = table_named(distribution + "_dip");
+    return tables;
+}
+
+DielectricTables dielectric_tables(const std::string& distribution, TransmissionShadowing shadowing,
+                                   double gamma)
+{
+    TableInfo info;
+    info.distribution = distribution;
+    info.gamma = distribution == "gtr" || distribution == "std" ? gamma : 0;
+    info.transmission_shadowing = shadowing == TransmissionShadowing::beta ? "beta" : "correlated";
+    DielectricTables tables;
+    for (int side = 0; side < 2; ++side)
+    {
+        info.side = side == 0 ? "outside" : "inside";
+        info.quantity = "E_S";
+        tables.E[side] = table_named(table_name(info));
+        info.quantity = "R_share";
+        tables.R[side] = table_named(table_name(info));
+    }
+    return tables;
+}
+
+std::vector<fs::path> loaded_files()
+{
+    Library& lib = library();
+    const std::lock_guard<std::mutex> lock(lib.mutex);
+    return lib.loaded;
+}
+
+}  // namespace luts
+REGAIN_NAMESPACE_END

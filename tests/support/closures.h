@@ -81,6 +81,12 @@ public:
         const Real x = unit<Real>();
         return {x, unit<Real>()};
     }
+    template <class Real>
+    Vec3<Real> cube()
+    {
+        const Real x = unit<Real>(), y = unit<Real>();
+        return {x, y, unit<Real>()};
+    }
 
 private:
     std::uint64_t _state;

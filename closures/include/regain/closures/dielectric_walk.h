@@ -245,7 +245,7 @@ public:
         WalkPath<Real> trace(const Vec3<Real>& u, const Join& join) const
         {
             constexpr bool three = Distribution::random_numbers > 2;
-            RandomStream<Real> stream(u);
+            RandomStream<Real> stream(Vec3<Real>(u.z, u.x, u.y));
             const Real first = stream.next();
             const auto third = [&] { return three ? stream.next() : Real(0); };
             const Vec3<Real> z(Real(0), Real(0), Real(1));
@@ -256,7 +256,7 @@ public:
             Vec3<Real> v = _wo, m = detail::select(_flat, z, _visible.sample({u.x, u.y, third()}));
             scatter(v, below, depth, m, detail::saturate(u.z), first, Mask(true));
             Visible visible = _distribution.visible(v);
-            Real area = visible.projected_area();
+            Real area = detail::visible_area(visible);
             Mask active = detail::both<Real>(_valid, !_flat);
             if constexpr (!leaves_at_once)
                 weight = depth.stay(-v.z, area, stream.next(), first, active);
@@ -272,7 +272,7 @@ public:
                 scatter(v, below, depth, m, stream.next(), first, active);
                 bounces = detail::select(active, bounces + Real(1), bounces);
                 visible = _distribution.visible(v);
-                area = visible.projected_area();
+                area = detail::visible_area(visible);
                 active = detail::both<Real>(active,
                                             !depth.move(-v.z, area, stream.next(), first, active));
             }

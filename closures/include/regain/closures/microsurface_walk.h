@@ -42,9 +42,10 @@ struct WalkPath
     Mask transmitted;     ///< wi is on the other side of the surface
 };
 
-/// A walk that has not left after so many facets is given up. None is: per bounce at least a few
-/// per cent leave (0.09 of STD at gamma 1.55 and alpha 1, 0.41 of GGX), and 0.95^1024 is 1e-23.
-constexpr int walk_limit = 1024;
+/// A walk that has not left after so many facets is given up. None is: on the surface that holds
+/// light longest, STD at gamma 1.51 and alpha 1, where the mean is 38 bounces, 1 of 40 walks leaves
+/// at each, and 0.975^4096 is 1e-45.
+constexpr int walk_limit = 4096;
 
 namespace detail {
 
@@ -96,8 +97,7 @@ public:
         draw(first, both<Real>(active, !up));
         const Real step = exponential(u) * detail::abs(z);
         const Mask ends = both<Real>(both<Real>(up, _drawn), step >= _tau * area);
-        // Where area underflows the ray goes straight up, and leaves.
-        const Real difference = step / detail::max(area, constant<Real>(1e-30));
+        const Real difference = step / area;
         _tau = select(up, detail::max(_tau - difference, Real(0)), _tau + difference);
         return left | ends;
     }
@@ -192,6 +192,15 @@ struct FacetRefraction
         D_jacobian = select(facing, distribution.D(h, length2) * cosine * jacobian, Real(0));
     }
 };
+
+/// sigma(v) of prepared visible normals. Straight from below nothing is visible, and less than
+/// nothing underflows; such a ray leaves, so it does not matter what is put in its place.
+template <class Visible>
+auto visible_area(const Visible& visible)
+{
+    const auto area = visible.projected_area();
+    return detail::max(area, constant<std::decay_t<decltype(area)>>(1e-30));
+}
 
 /// A direction seen in a mirror on the surface: what one side's frame is to the other's.
 template <class Real>

@@ -7,13 +7,13 @@
 ///
 ///   p(mu) = (1 - E(mu)) mu / int_0^1 (1 - E) mu' dmu'
 ///
-/// Cosines are placed by s = ln(1 + mu / alpha) / ln(1 + 1 / alpha), which follows the loss from
-/// mu ~ alpha, where it is largest for every alpha, over the decades up to mu = 1, where a
-/// distribution with a long tail loses most. The density is linear in s between `cells` + 1 equal
-/// steps, so it is inverted in closed form and known exactly. A cosine-weighted density in its
-/// place would give weights of over a hundred at small alpha.
-///
-/// Measured with the look-ups of the four distributions, alpha in [1e-3, 1]: see tests.
+/// Cosines are placed by s = ln(1 + t / alpha) / ln(1 + l / alpha), t = mu, l = 1, which follows
+/// the loss from mu ~ alpha, where it is largest for every alpha, over the decades up to mu = 1,
+/// where a distribution with a long tail loses most. Inside a dielectric there is a second such
+/// place, the critical cosine; three pieces then run from 0 up, from there down and from there up,
+/// each with t the distance from its start. The density is linear in s between equal steps, so it
+/// is inverted in closed form and known exactly. A cosine-weighted density in its place would give
+/// weights of over a hundred at small alpha; this one stays within 1.4 of (1 - E) mu.
 
 #pragma once
 
@@ -21,47 +21,53 @@
 
 REGAIN_NAMESPACE_BEGIN
 
-template <class RealType>
+/// `pieces` is 1, or 3 where there may be a critical cosine; `cells` steps to a piece.
+template <class RealType, int pieces = 1, int cells = 16>
 class MissingEnergy
 {
 public:
     using Real = RealType;
-    static constexpr int cells = 16;
+    static_assert(pieces == 1 || pieces == 3, "one piece, or three about a critical cosine");
 
     /// Nothing is missing.
     MissingEnergy() : MissingEnergy(Real(1), [](Real) { return Real(0); }) {}
 
-    /// loss(mu) = 1 - E(mu) in [0, 1] for mu in [0, 1]; it is asked `cells` times. alpha in (0, 1].
+    /// loss(mu) = 1 - E(mu) in [0, 1] for mu in [0, 1]; it is asked `pieces` * (`cells` + 1) times.
+    /// alpha in (0, 1]. critical in [0, 1) is the critical cosine, 0 where there is none.
     template <class Loss>
-    MissingEnergy(Real alpha, const Loss& loss) : _alpha(alpha)
+    MissingEnergy(Real alpha, const Loss& loss, Real critical = Real(0)) : _alpha(alpha)
     {
-        _log_range = detail::log1p(Real(1) / alpha);
-        _inv_log_range = Real(1) / _log_range;
-
-        // (1 - E) mu dmu/ds; it vanishes at mu = 0. From node to node alpha + mu grows by a factor.
-        const Real step = detail::exp(_log_range * detail::constant<Real>(1.0 / cells));
-        Real sum(0), corrected(0), shifted = alpha;
-        _node[0] = Real(0);
-        for (int i = 1; i <= cells; ++i)
+        const Real none(0);
+        _critical = pieces == 1 ? none
+                                : detail::select(critical > detail::constant<Real>(least_critical),
+                                                 critical, none);
+        const Real half = Real(0.5f) * _critical;
+        if constexpr (pieces == 3)
         {
-            shifted *= step;
-            const Real mu = detail::min(shifted - alpha, Real(1));
-            _node[i] = loss(mu) * mu * shifted * _log_range;
-            sum += _node[i] * detail::constant<Real>((i == cells ? 0.5 : 1.0) / cells);
-            // Gregory's end correction: the integrand begins like s^2, but ends anywhere.
-            corrected += _node[i] * detail::constant<Real>(gregory(cells - i) / cells);
+            _piece[0] = {none, Real(1), half};
+            _piece[1] = {_critical, Real(-1), half};
         }
+        _piece[pieces - 1] = {_critical, Real(1), Real(1) - _critical};
+
+        Real mass(0), corrected(0);
+        for (Piece& piece : _piece) measure(piece, loss, mass, corrected);
         _average = Real(2) * detail::max(corrected, Real(0));
 
         // Between two nodes that see no loss there may be some: nothing that is evaluated may be
         // out of reach of samples.
-        const Real floor =
-            detail::max(sum * detail::constant<Real>(least_density), detail::constant<Real>(1e-30));
-        for (Real& node : _node) node = detail::max(node, floor);
-        Real total = Real(0.5f) * (_node[0] + _node[cells]);
-        for (int i = 1; i < cells; ++i) total += _node[i];
-        const Real scale = Real(float(cells)) / total;
-        for (Real& node : _node) node *= scale;
+        const Real floor = detail::max(mass * detail::constant<Real>(least_density),
+                                       detail::constant<Real>(1e-30));
+        Real total(0);
+        for (Piece& piece : _piece)
+        {
+            const Real least =
+                detail::select(piece.length > detail::constant<Real>(least_length), floor, Real(0));
+            for (Real& node : piece.node) node = detail::max(node, least);
+            for (int i = 0; i < cells; ++i) total += area(piece, i);
+        }
+        const Real scale = Real(1) / total;
+        for (Piece& piece : _piece)
+            for (Real& node : piece.node) node *= scale;
     }
 
     /// 2 int_0^1 (1 - E) mu dmu = 1 - E_avg, of this very E: what integrates to 1 has to be
@@ -73,56 +79,120 @@ public:
     Real density(Real mu) const
     {
         using Number = NumberTraits<Real>;
-        const Real s = detail::log1p(mu / _alpha) * _inv_log_range * Real(float(cells));
+        const Piece& last = _piece[pieces - 1];
+        Real start = last.start, sign(1), inv_range = last.inv_log_range;
+        MaskOf<Real> first(false), second(false);
+        if constexpr (pieces == 3)
+        {
+            second = mu < _critical;
+            first = mu < Real(0.5f) * _critical;
+            start = detail::select(first, Real(0), _critical);
+            sign = detail::select(second & !first, Real(-1), Real(1));
+            inv_range = detail::select(second, _piece[0].inv_log_range, inv_range);
+        }
+        const Real distance = detail::max((mu - start) * sign, Real(0));
+        const Real s = detail::log1p(distance / _alpha) * inv_range * Real(float(cells));
         const Real cell = Number::to_real(Number::at_most(Number::truncate(s), cells - 1));
-        Real low = _node[0], high = _node[1];
-        for (int i = 1; i < cells; ++i)
+        Real low(0), high(0);
+        for (int i = 0; i < cells; ++i)
         {
             const MaskOf<Real> reached = cell >= Real(float(i));
-            low = detail::select(reached, _node[i], low);
-            high = detail::select(reached, _node[i + 1], high);
+            low = detail::select(reached, node(first, second, i), low);
+            high = detail::select(reached, node(first, second, i + 1), high);
         }
         const Real fraction = detail::min(s - cell, Real(1));
-        return (low + (high - low) * fraction) * _inv_log_range / (_alpha + mu);
+        return (low + (high - low) * fraction) * inv_range / (_alpha + distance);
     }
 
     /// A cosine in (0, 1] for u in [0, 1].
     Real sample(Real u) const
     {
-        Real sum(0), below(0), low = _node[0], high = _node[1], cell(0);
-        for (int i = 1; i < cells; ++i)
-        {
-            sum += (_node[i - 1] + _node[i]) * detail::constant<Real>(0.5 / cells);
-            const MaskOf<Real> reached = sum <= u;
-            below = detail::select(reached, sum, below);
-            low = detail::select(reached, _node[i], low);
-            high = detail::select(reached, _node[i + 1], high);
-            cell = detail::select(reached, Real(float(i)), cell);
-        }
+        Real sum(0), below(0), low(0), high(0), cell(0);
+        Real start(0), sign(1), range(1);
+        for (const Piece& piece : _piece)
+            for (int i = 0; i < cells; ++i)
+            {
+                const Real step = area(piece, i);
+                const MaskOf<Real> reached = (sum <= u) & (step > Real(0));
+                below = detail::select(reached, sum, below);
+                low = detail::select(reached, piece.node[i], low);
+                high = detail::select(reached, piece.node[i + 1], high);
+                cell = detail::select(reached, Real(float(i)), cell);
+                if constexpr (pieces > 1)
+                {
+                    start = detail::select(reached, piece.start, start);
+                    sign = detail::select(reached, piece.sign, sign);
+                    range = detail::select(reached, piece.log_range, range);
+                }
+                sum += step;
+            }
+        if constexpr (pieces == 1) range = _piece[0].log_range;
+
         // low x + (high - low) x^2 / 2 = area, by the root that does not cancel.
-        const Real area = (u - below) * Real(float(cells));
-        const Real discriminant = low * low + Real(2) * (high - low) * area;
-        const Real x = Real(2) * area / (low + detail::sqrt(detail::max(discriminant, Real(0))));
+        const Real part = (u - below) * Real(float(cells));
+        const Real discriminant = low * low + Real(2) * (high - low) * part;
+        const Real x = Real(2) * part / (low + detail::sqrt(detail::max(discriminant, Real(0))));
         const Real s = (cell + detail::saturate(x)) * detail::constant<Real>(1.0 / cells);
-        return detail::max(cosine_at(s), detail::constant<Real>(2 * detail::horizon));
+        const Real mu = start + sign * _alpha * detail::expm1(s * range);
+        return detail::max(detail::min(mu, Real(1)), detail::constant<Real>(2 * detail::horizon));
     }
 
 private:
-    // Share of the average, below which no node's density falls.
-    static constexpr double least_density = 0.02;
+    // Share of the mass, below which no node's density falls; pieces too short to matter, and
+    // critical cosines too low to.
+    static constexpr double least_density = 0.02, least_length = 1e-6, least_critical = 2e-3;
 
+    struct Piece
+    {
+        Real start, sign, length;
+        Real log_range = Real(0), inv_log_range = Real(0);
+        Real node[cells + 1] = {};  // the density of s at i / cells
+    };
+
+    // The nodes (1 - E) mu dmu/ds, their mass by the trapezoidal rule, which is that of the
+    // density, and their integral with Gregory's corrections at the ends.
+    template <class Loss>
+    void measure(Piece& piece, const Loss& loss, Real& mass, Real& integral) const
+    {
+        const bool vanishes = pieces == 1;  // like mu^2 at its start
+        piece.log_range = detail::log1p(piece.length / _alpha);
+        piece.inv_log_range = Real(1) / detail::max(piece.log_range, detail::constant<Real>(1e-12));
+        // From node to node alpha + t grows by a factor.
+        const Real step = detail::exp(piece.log_range * detail::constant<Real>(1.0 / cells));
+        Real shifted = _alpha;
+        for (int i = 0; i <= cells; ++i, shifted *= step)
+        {
+            if (i == 0 && vanishes) continue;
+            const Real t = detail::min(detail::max(shifted - _alpha, Real(0)), piece.length);
+            const Real mu = detail::saturate(piece.start + piece.sign * t);
+            piece.node[i] = loss(mu) * mu * shifted * piece.log_range;
+            mass += piece.node[i] * detail::constant<Real>((i % cells ? 1.0 : 0.5) / cells);
+            const double weight = gregory(cells - i) * (vanishes ? 1 : gregory(i));
+            integral += piece.node[i] * detail::constant<Real>(weight / cells);
+        }
+    }
     static constexpr double gregory(int from_end)
     {
         return from_end == 0 ? 3.0 / 8 : from_end == 1 ? 7.0 / 6 : from_end == 2 ? 23.0 / 24 : 1;
     }
 
-    Real cosine_at(Real s) const
+    static Real area(const Piece& piece, int i)
     {
-        return detail::min(_alpha * detail::expm1(s * _log_range), Real(1));
+        return (piece.node[i] + piece.node[i + 1]) * detail::constant<Real>(0.5 / cells);
     }
 
-    Real _alpha, _log_range, _inv_log_range, _average;
-    Real _node[cells + 1];  // the density of s at i / cells
+    Real node([[maybe_unused]] const MaskOf<Real>& first,
+              [[maybe_unused]] const MaskOf<Real>& second, int i) const
+    {
+        if constexpr (pieces == 1)
+            return _piece[0].node[i];
+        else
+            return detail::select(first, _piece[0].node[i],
+                                  detail::select(second, _piece[1].node[i], _piece[2].node[i]));
+    }
+
+    Real _alpha, _critical, _average;
+    Piece _piece[pieces];
 };
 
 REGAIN_NAMESPACE_END

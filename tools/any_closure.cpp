@@ -10,15 +10,20 @@
 
 namespace regain::tools {
 
-std::unique_ptr<AnyClosure> make_closure(const ClosureSpec& spec)
+std::unique_ptr<AnyClosure> make_closure(const ClosureSpec& spec, bool tabulated_albedo)
 {
     using shaders::DistributionKind;
     shaders::MicrofacetMaterial material = spec.material();
     try
     {
-        material.bind_tables();
+        material.bind_tables(tabulated_albedo);
     }
-    catch (const std::invalid_argument& e)
+    // No such combination, or no such table.
+    catch (const std::logic_error& e)
+    {
+        throw BadInput(e.what());
+    }
+    catch (const std::runtime_error& e)
     {
         throw BadInput(e.what());
     }

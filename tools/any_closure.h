@@ -46,7 +46,8 @@ public:
     virtual int bounces(const Imath::V3d& u) const = 0;
 };
 
-/// Throws BadInput where the library has no such combination.
-std::unique_ptr<AnyClosure> make_closure(const ClosureSpec&);
+/// tabulated_albedo: albedo() is a look-up if it can be; without it may integrate. Throws BadInput
+/// where the library has no such combination, or a table is missing.
+std::unique_ptr<AnyClosure> make_closure(const ClosureSpec&, bool tabulated_albedo = false);
 
 }  // namespace regain::tools

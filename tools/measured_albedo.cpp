@@ -198,7 +198,7 @@ MeasuredAlbedo measured_albedo(const ClosureSpec& given, const Imath::V3d& wo,
                                const AlbedoSettings& settings)
 {
     const ClosureSpec spec = as_energy(given);
-    const auto closure = make_closure(spec);
+    const auto closure = make_closure(spec, settings.how == AlbedoMethod::table);
     return measured_albedo(*closure, spec, wo, settings);
 }
 
@@ -206,7 +206,7 @@ MeasuredAlbedo measured_average_albedo(const ClosureSpec& given, const AlbedoSet
                                        bool below)
 {
     const ClosureSpec spec = as_energy(given);
-    const auto closure = make_closure(spec);
+    const auto closure = make_closure(spec, settings.how == AlbedoMethod::table);
     const bool isotropic = !closure->traits().anisotropic;
     switch (settings.how)
     {

@@ -186,7 +186,8 @@ void write_answer(const Query& query, fmt::memory_buffer& out)
             write_part<float>(writer, query);
         return;
     }
-    const auto closure = make_closure(query.closure);
+    const bool look_up = query.op == Op::albedo && query.albedo.how == AlbedoMethod::table;
+    const auto closure = make_closure(query.closure, look_up);
     closure->prepare(query.wo);
     switch (query.op)
     {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright Contributors to the Regain project
 
-#include <regain/luts/builtin.h>
+#include <regain/luts/library.h>
 #include <regain/shaders/microfacet_material.h>
 
 #include <string>
@@ -78,7 +78,7 @@ MicrofacetMaterial::MicrofacetMaterial(const SchlickMetal& metal)
       method(metal.method)
 {}
 
-void MicrofacetMaterial::bind_tables()
+void MicrofacetMaterial::bind_tables(bool for_albedo)
 {
     const auto refuse = [this](const std::string& why) {
         throw std::invalid_argument("the method " + std::string(name(method)) + " " + why);
@@ -91,7 +91,8 @@ void MicrofacetMaterial::bind_tables()
             refuse("does not go with sheen, which has no microfacets; accepted: none");
         return;
     }
-    if (const auto* interface = std::get_if<InterfaceSurface>(&surface))
+    const auto* interface = std::get_if<InterfaceSurface>(&surface);
+    if (interface)
     {
         const bool walks = !interface->thin_walled && interface->mode == ScatterMode::RT;
         if (is_walk && !walks)
@@ -102,12 +103,15 @@ void MicrofacetMaterial::bind_tables()
     }
     _tables = {};
     _interface_tables = {};
-    const bool needs_tables = !(is_walk || std::holds_alternative<BurleySheen>(method) ||
-                                (gain && *gain == Method::none));
-    if (distribution == DistributionKind::ggx)
-        _tables = luts::ggx_tables();
-    else if (needs_tables)
-        refuse("needs tables, which there are for ggx alone");
+    const bool gains = !(is_walk || std::holds_alternative<BurleySheen>(method) ||
+                         (gain && *gain == Method::none));
+    // Those of GGX mirrors cost nothing; others are files.
+    if (!gains && !for_albedo && distribution != DistributionKind::ggx) return;
+    const std::string names(name(distribution));
+    if (!interface || interface->thin_walled || interface->mode == ScatterMode::R)
+        _tables = luts::microfacet_tables(names);
+    else if (gains || (for_albedo && !is_walk))
+        _interface_tables = luts::dielectric_tables(names, interface->shadowing, gamma);
 }
 
 }  // namespace shaders

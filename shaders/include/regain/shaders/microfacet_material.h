@@ -124,10 +124,11 @@ public:
 
     bool is_interface() const { return std::holds_alternative<InterfaceSurface>(surface); }
 
-    /// Looks up the tables that the closure needs; call it again after a change. Throws
-    /// std::invalid_argument, which says what is wrong and what there is, where the library has no
-    /// such combination, and std::runtime_error where a table is missing.
-    REGAIN_SHADERS_API void bind_tables();
+    /// Looks up the tables that the closure needs; call it again after a change. `for_albedo`: those,
+    /// too, without which nothing is wrong but albedo() integrates. Throws std::invalid_argument,
+    /// which says what is wrong and what there is, where the library has no such combination, and
+    /// std::runtime_error where a table is missing.
+    REGAIN_SHADERS_API void bind_tables(bool for_albedo = false);
 
     /// visit(closure); strength of the compensation in [0, 1]. Visit answers one type.
     template <class Real, class Visit>

@@ -7,6 +7,7 @@
 
 #include "../support/normals.h"
 #include "../support/reflection_integral.h"
+#include "../support/trapped.h"
 
 #include <regain/closures/beckmann.h>
 #include <regain/closures/std.h>
@@ -268,6 +269,7 @@ TEST(Std, hostile_inputs_give_unit_normals_and_finite_areas)
 {
     const float nan = std::numeric_limits<float>::quiet_NaN(),
                 inf = std::numeric_limits<float>::infinity(), last = 1 - 0x1p-24f;
+    const Trapped trapped;
     for (float gamma : {1.0f, 1.51f, 2.0f, 30.0f, inf, -inf, nan})
         for (float alpha : {0.0f, 1e-5f, 1e-3f, 0.3f, 1.0f, inf, -1.0f, nan})
             for (float mu : {1.0f, 0.5f, 1e-3f, 1e-12f, 0.0f, -1e-12f, -1e-3f, -0.5f, -1.0f})
@@ -294,8 +296,8 @@ TEST(Std, tail_coordinates_are_monotone_and_invertible)
 {
     const auto check = [](double lo, double hi, double (*tail)(const double&),
                           double (*gamma)(const double&)) {
-        EXPECT_EQ(tail(lo), 0);
-        EXPECT_DOUBLE_EQ(tail(hi), 1);
+        EXPECT_NEAR(tail(lo), 0, 1e-15);
+        EXPECT_NEAR(tail(hi), 1, 1e-15);
         EXPECT_EQ(tail(2 * hi), tail(hi));
         EXPECT_EQ(tail(std::numeric_limits<double>::quiet_NaN()), tail(2));
         double last = -1;

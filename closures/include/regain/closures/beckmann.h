@@ -54,10 +54,12 @@ public:
     /// D of the normal m along h, which need not be unit: length2 = h.h. Per steradian.
     Real D(const Vec3<Real>& h, Real length2) const
     {
-        // Half of the exponential with each power of the cosine: neither can overflow alone.
+        // Half of the exponential with each power of the cosine: neither can overflow alone. D
+        // never is 0, so that it may be divided by; what that adds is below any rounding.
+        constexpr double least = sizeof(ScalarOf<Real>) == 4 ? 1e-16 : 1e-150;
         const Real inv_z2 = Real(1) / detail::max(h.z * h.z, detail::constant<Real>(1e-24));
-        const Real r =
-            length2 * inv_z2 * detail::exp(Real(-0.5f) * this->shrunk_tangential2(h) * inv_z2);
+        const Real gauss = detail::exp(Real(-0.5f) * this->shrunk_tangential2(h) * inv_z2);
+        const Real r = detail::max(length2 * inv_z2 * gauss, detail::constant<Real>(least));
         return _normalisation * r * r;
     }
     Real D(const Vec3<Real>& m) const { return D(m, Real(1)); }
@@ -139,7 +141,7 @@ Real visible_gaussian_slope_above(const Real& cotangent, const Real& u)
     const Real c = min(cotangent, Real(1e8f)), scale = Real(1) / (Real(1) + c);
     const Real half = Real(0.5f) * scale,
                weight = constant<Real>(0.886226925452758013649) * c * scale;
-    const Real gauss_at_c = exp(-min(c * c, Real(80)));
+    const Real gauss_at_c = exp(-min(c * c, Real(60)));
     const Real total = half * gauss_at_c + weight * (Real(2) - erfc(min(c, Real(9))));
     const Real target = u * total;
 

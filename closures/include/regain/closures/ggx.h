@@ -93,6 +93,9 @@ public:
                 k = (Real(1) - a2) * s2 / (s2 + a2 * wo.z * wo.z);
             }
             _cap = k * _v.z;
+            // Far below the horizon the cap is small, and 1 + z all that there is of it.
+            const Real below = (_v.x * _v.x + _v.y * _v.y) / (Real(1) + detail::abs(_v.z));
+            _height = detail::select(_v.z < Real(0), below, Real(1) + _cap);
             // From straight below nothing is seen.
             _projected_area = detail::max(ggx.projected_area(wo, t), detail::constant<Real>(1e-30));
             _reflected_density = sampling == NormalSampling::bounded
@@ -110,20 +113,23 @@ public:
         Vec3<Real> sample(const Vec3<Real>& u) const
         {
             const Real phi = detail::constant<Real>(6.28318530717958647692) * detail::saturate(u.x);
-            const Real z = (Real(1) - detail::saturate(u.y)) * (Real(1) + _cap) - _cap;
-            const Real sin_theta = detail::sqrt(detail::max(Real(1) - z * z, Real(0)));
+            // v + c, where c = (sin_theta cos phi, sin_theta sin phi, rise - cap) is on the cap,
+            // and 1 - c.z = drop.
+            const Real y = detail::saturate(u.y), drop = y * _height, rise = _height - drop;
+            const Real sin_theta = detail::sqrt(drop * (Real(2) - drop));
             const Vec3<Real> h(_v.x + sin_theta * detail::cos(phi),
-                               _v.y + sin_theta * detail::sin(phi), _v.z + z);
+                               _v.y + sin_theta * detail::sin(phi), (_v.z - _cap) + rise);
             // Rounding can put h.z a little below 0, and h near 0 where v and the cap cancel.
             const Vec3<Real> m(_alpha_x * h.x, _alpha_y * h.y,
-                               detail::max(h.z, detail::constant<Real>(1e-9)));
+                               detail::max(h.z, detail::constant<Real>(1e-15)));
             return m * (Real(1) / detail::sqrt(detail::dot(m, m)));
         }
 
     private:
         Real _alpha_x, _alpha_y;
         Vec3<Real> _v;  // wo in the space where the microsurface is a hemisphere
-        Real _cap;      // the cap of reflection directions reaches down to z = -_cap
+        Real _cap;      // the cap of reflection directions reaches down to z = -_cap,
+        Real _height;   // and is 1 + _cap high
         Real _projected_area, _reflected_density;
     };
 

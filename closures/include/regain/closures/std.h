@@ -87,7 +87,10 @@ public:
         const Real z2 = detail::max(h.z * h.z, detail::constant<Real>(1e-24));
         const Real t2 = _inv_p * this->shrunk_tangential2(h);
         const Real r = length2 / (z2 + t2);
-        return _normalisation * r * r * detail::exp((Real(1) - _p) * detail::log1p(t2 / z2));
+        // D never is 0, so that it may be divided by; what that adds is below any rounding.
+        constexpr double least = sizeof(ScalarOf<Real>) == 4 ? 1e-18 : 1e-200;
+        const Real rest = detail::exp((Real(1) - _p) * detail::log1p(t2 / z2));
+        return _normalisation * r * r * detail::max(rest, detail::constant<Real>(least));
     }
     Real D(const Vec3<Real>& m) const { return D(m, Real(1)); }
 

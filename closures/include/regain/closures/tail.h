@@ -5,7 +5,7 @@
 /// The tail parameter gamma of the distributions that have one, as a coordinate in [0, 1] along the
 /// third axis of their tables:
 ///
-///   GTR   f = 1.67 ln(1 + g / 1.33) + 0.7 S((g - 1.25) / 0.5),  S(t) = t / sqrt(1 + t^2)
+///   GTR   f = 3.84 g / (g + 3) + 0.7 S((g - 1.25) / 0.5),  S(t) = t / sqrt(1 + t^2)
 ///   STD   f = ln(u / (u + 4)),  u = g - 1.5
 ///
 /// each scaled to [0, 1] over its range. The slope of f is close to the root of what E_ss bends by,
@@ -34,7 +34,7 @@ template <class Real>
 Real gtr_tail_position(const Real& gamma)
 {
     const Real t = (gamma - constant<Real>(1.25)) * Real(2);
-    return constant<Real>(1.67) * log(Real(1) + gamma * constant<Real>(1 / 1.33)) +
+    return constant<Real>(3.84) * gamma / (gamma + Real(3)) +
            constant<Real>(0.7) * t / sqrt(Real(1) + t * t);
 }
 template <class Real>
@@ -52,12 +52,35 @@ Real tail_coordinate(const Real& position, double lowest, double highest)
 }
 
 // Of the limits of gamma.
-constexpr double gtr_lowest_position = -0.6486067252546112,
-                 gtr_highest_position = 4.276459405883225;
+constexpr double gtr_lowest_position = -0.6485823190685543,
+                 gtr_highest_position = 3.652706087942937;
 constexpr double std_lowest_position = -5.9939614273065684,
                  std_highest_position = -0.039806250400419706;
 
 }  // namespace detail
+
+/// Coordinates of alpha in [0, 1] along the second axis of their tables, logarithms but for the
+/// end:
+///
+///   GTR   ln(1 + 1000 alpha) / (2 ln 1001) + alpha^2 / 2, since with a large gamma E_ss changes
+///         most close to alpha 1
+///   STD   0.8 ln(1 + 1000 alpha) / ln 1001 + 0.2 alpha
+template <class Real>
+Real gtr_width(const Real& alpha)
+{
+    const double scale = 0.5 / 6.9087547793152205;
+    return detail::saturate(detail::constant<Real>(scale) *
+                                detail::log(Real(1) + Real(1000) * alpha) +
+                            Real(0.5f) * alpha * alpha);
+}
+template <class Real>
+Real std_width(const Real& alpha)
+{
+    const double scale = 0.8 / 6.9087547793152205;
+    return detail::saturate(detail::constant<Real>(scale) *
+                                detail::log(Real(1) + Real(1000) * alpha) +
+                            detail::constant<Real>(0.2) * alpha);
+}
 
 /// Coordinate of a GTR's gamma, 0 at gtr_min_gamma and 1 at gtr_max_gamma; NaN counts as 2.
 template <class Real>

@@ -8,7 +8,7 @@
 #include <regain/luts/bake.h>
 
 #include <algorithm>
-#include <vector>
+#include <stdexcept>
 
 namespace regain::tools {
 
@@ -30,8 +30,15 @@ luts::Table bake_showing(const std::string& name, const InterruptGuard& guard)
 
 bool is_table(const std::string& name)
 {
-    const std::vector<std::string> known = luts::bakeable_tables();
-    return std::find(known.begin(), known.end(), name) != known.end();
+    try
+    {
+        luts::require_bakeable(name);
+        return true;
+    }
+    catch (const std::invalid_argument&)
+    {
+        return false;
+    }
 }
 
 }  // namespace regain::tools

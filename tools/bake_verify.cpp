@@ -11,6 +11,7 @@
 #include <regain/luts/bake.h>
 #include <regain/luts/builtin.h>
 #include <regain/luts/exr.h>
+#include <regain/luts/library.h>
 
 #include <fmt/format.h>
 
@@ -29,19 +30,33 @@ std::vector<TableCheck> check_table(const std::string& name, const std::vector<S
                                     int spots, const InterruptGuard& guard)
 {
     std::vector<TableCheck> checks;
+    const TableView builtin = luts::builtin_table(name);
     if (spots > 0)
     {
-        checks.push_back(check_spots(name, luts::builtin_table(name), "compiled in", spots));
+        if (builtin)
+            checks.push_back(
+                check_spots(name, builtin, spot_tolerance(name), "compiled in", spots));
         for (const ShippedFile& f : files)
             if (f.table.name() == name)
-                checks.push_back(check_spots(name, f.table.view(), f.file, spots));
+                checks.push_back(
+                    check_spots(name, f.table.view(), spot_tolerance(f.table), f.file, spots));
         return checks;
     }
     const luts::Table baked = bake_showing(name, guard);
-    checks.push_back(check_builtin(baked));
+    if (builtin) checks.push_back(check_builtin(baked));
     for (const ShippedFile& f : files)
         if (f.table.name() == name) checks.push_back(check_file(baked, f.table, f.file));
     return checks;
+}
+
+// The file that the library would load.
+std::string installed_file(const std::string& name)
+{
+    for (const std::filesystem::path& folder : luts::table_folders())
+        if (const auto file = folder / (name + ".exr"); std::filesystem::exists(file))
+            return file.string();
+    throw BadInput(
+        fmt::format("there is no file of the table '{}' to verify; bake it with -o", name));
 }
 
 Json as_json(const TableCheck& c)
@@ -79,16 +94,19 @@ int verify_tables(const std::vector<std::string>& given_names, int spots, bool j
         {
             files.push_back({given, luts::read_table(given)});
             name = files.back().table.name();
-            if (!is_table(name))
-                throw BadInput(fmt::format("'{}' holds the table '{}'; known are {}", given, name,
-                                           fmt::join(luts::bakeable_tables(), ", ")));
+            luts::require_bakeable(name);
+        }
+        else if (!luts::builtin_table(given))
+        {
+            const std::string file = installed_file(given);
+            files.push_back({file, luts::read_table(file)});
         }
         if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
     }
 
     Json report = Json::array();
     int failed = 0;
-    for (const std::string& name : names.empty() ? luts::bakeable_tables() : names)
+    for (const std::string& name : names.empty() ? luts::compiled_in_tables() : names)
         for (const TableCheck& check : check_table(name, files, spots, guard))
         {
             if (!json) print(check);

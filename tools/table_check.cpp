@@ -27,22 +27,36 @@ void compare(TableCheck& check, const std::string& where, double shipped, double
     if (larger || !check.worst) check.worst = Mismatch{where, shipped, expected};
 }
 
-std::string node(int x, int y) { return fmt::format("node ({}, {})", x, y); }
-
-bool same_size(TableCheck& check, int width, int height, const luts::Table& baked)
+// The node of an index; x is fastest.
+std::string node(std::size_t i, const luts::Table& table)
 {
-    if (width == baked.width() && height == baked.height()) return true;
+    const auto width = static_cast<std::size_t>(table.width()),
+               height = static_cast<std::size_t>(table.height());
+    if (table.depth() == 1) return fmt::format("node ({}, {})", i % width, i / width);
+    return fmt::format("node ({}, {}, {})", i % width, i / width % height, i / width / height);
+}
+
+std::string size(int width, int height, int depth)
+{
+    return depth > 1 ? fmt::format("{} x {} x {}", width, height, depth)
+                     : fmt::format("{} x {}", width, height);
+}
+
+bool same_size(TableCheck& check, int width, int height, int depth, const luts::Table& baked)
+{
+    if (width == baked.width() && height == baked.height() && depth == baked.depth()) return true;
     check.differing = 1;
-    check.worst = Mismatch{fmt::format("size {} x {} in place of {} x {}: number of nodes", width,
-                                       height, baked.width(), baked.height()),
-                           static_cast<double>(width) * height,
-                           static_cast<double>(baked.width()) * baked.height()};
+    check.worst =
+        Mismatch{fmt::format("size {} in place of {}: number of nodes", size(width, height, depth),
+                             size(baked.width(), baked.height(), baked.depth())),
+                 static_cast<double>(width) * height * depth,
+                 static_cast<double>(baked.width()) * baked.height() * baked.depth()};
     return false;
 }
 
 // Numbers of a header that have to be equal; an absent name is a text that differs.
 void compare_headers(TableCheck& check, const luts::TableInfo& shipped,
-                     const luts::TableInfo& baked)
+                     const luts::TableInfo& baked, double error_tolerance)
 {
     const auto number = [&](const char* name, double a, double b, double tolerance) {
         const double d = std::abs(a - b);
@@ -57,13 +71,17 @@ void compare_headers(TableCheck& check, const luts::TableInfo& shipped,
     text("distribution", shipped.distribution, baked.distribution);
     text("axis_x", shipped.axis_x, baked.axis_x);
     text("axis_y", shipped.axis_y, baked.axis_y);
+    text("axis_z", shipped.axis_z, baked.axis_z);
+    text("transmission_shadowing", shipped.transmission_shadowing, baked.transmission_shadowing);
+    text("side", shipped.side, baked.side);
+    text("transform", shipped.transform, baked.transform);
     text("method", shipped.method, baked.method);
     text("error_kind", shipped.error_kind, baked.error_kind);
     number("gamma", shipped.gamma, baked.gamma, 0);
     number("nodes", shipped.nodes, baked.nodes, 0);
     number("offset", shipped.offset, baked.offset, 0);
     number("scale", shipped.scale, baked.scale, 0);
-    number("error", shipped.error, baked.error, file_tolerance);
+    number("error", shipped.error, baked.error, error_tolerance);
 }
 
 }  // namespace
@@ -74,18 +92,16 @@ TableCheck check_builtin(const luts::Table& baked)
     check.table = baked.name();
     check.against = "compiled in";
     const TableView shipped = luts::builtin_table(baked.name()), expected = baked.view();
-    if (!same_size(check, shipped.width, shipped.height, baked)) return check;
+    if (!same_size(check, shipped.width, shipped.height, shipped.depth, baked)) return check;
     compare(check, "offset", shipped.offset, expected.offset,
             std::abs(shipped.offset - expected.offset), shipped.offset == expected.offset);
     compare(check, "scale", shipped.scale, expected.scale, std::abs(shipped.scale - expected.scale),
             shipped.scale == expected.scale);
-    for (int y = 0; y < shipped.height; ++y)
-        for (int x = 0; x < shipped.width; ++x)
-        {
-            const int i = y * shipped.width + x;
-            const int a = shipped.data[i], b = expected.data[i];
-            compare(check, node(x, y), a, b, std::abs(a - b) * double(expected.scale), a == b);
-        }
+    for (std::size_t i = 0; i < baked.stored().size(); ++i)
+    {
+        const int a = shipped.data[i], b = expected.data[i];
+        compare(check, node(i, baked), a, b, std::abs(a - b) * double(expected.scale), a == b);
+    }
     return check;
 }
 
@@ -94,15 +110,16 @@ TableCheck check_file(const luts::Table& baked, const luts::Table& shipped, cons
     TableCheck check;
     check.table = baked.name();
     check.against = file;
-    if (!same_size(check, shipped.width(), shipped.height(), baked)) return check;
-    compare_headers(check, shipped.info(), baked.info());
-    for (int y = 0; y < shipped.height(); ++y)
-        for (int x = 0; x < shipped.width(); ++x)
-        {
-            const std::size_t i = static_cast<std::size_t>(y * shipped.width() + x);
-            const double a = shipped.values()[i], b = baked.values()[i], d = std::abs(a - b);
-            compare(check, node(x, y), a, b, d, d <= file_tolerance);
-        }
+    if (!same_size(check, shipped.width(), shipped.height(), shipped.depth(), baked)) return check;
+    const double largest_step = luts::storage_step(baked, 1);
+    compare_headers(check, shipped.info(), baked.info(), std::max(file_tolerance, largest_step));
+    const bool rounded = largest_step > 0;
+    for (std::size_t i = 0; i < baked.values().size(); ++i)
+    {
+        const double a = shipped.values()[i], b = baked.values()[i], d = std::abs(a - b);
+        const double step = rounded ? luts::storage_step(baked, b) : 0;
+        compare(check, node(i, baked), a, b, d, d <= std::max(file_tolerance, 1.01 * step));
+    }
     return check;
 }
 
@@ -115,23 +132,35 @@ SpotTolerance spot_tolerance(const std::string& table)
     return {1e-3, false};
 }
 
+SpotTolerance spot_tolerance(const luts::Table& table)
+{
+    return {2 * table.info().error + 1e-4, table.info().error_kind == "relative"};
+}
+
 TableCheck check_spots(const std::string& name, const TableView& shipped,
-                       const std::string& against, int spots)
+                       const SpotTolerance& tolerance, const std::string& against, int spots)
 {
     TableCheck check;
     check.table = name;
     check.against = against;
-    const SpotTolerance tolerance = spot_tolerance(name);
+    const bool logarithm = luts::is_logarithmic(name);
     RandomNumbers random(0);
-    for (int i = 0; i < spots; ++i)
+    while (check.numbers < spots)
     {
-        const double x = random.next<double>(), y = random.next<double>();
-        const double exact = luts::exact_value(name, x, y, 64);
-        double value = shipped.height > 1 ? shipped.at(x, y) : shipped.at(x);
+        luts::TablePoint at;
+        at.x = random.next<double>();
+        at.y = random.next<double>();
+        if (shipped.depth > 1) at.z = random.next<double>();
+        if (!luts::is_error_promised(name, at)) continue;
+        double exact = luts::exact_value(name, at, shipped.depth > 1 ? 32 : 64);
+        double value = luts::interpolated(shipped, at);
+        if (logarithm) exact = std::exp(exact), value = std::exp(value);
         if (tolerance.relative) value = std::min(value, 1.0);  // as look-ups are
         const double off = std::abs(tolerance.relative ? value / exact - 1 : value - exact);
-        const std::string place = shipped.height > 1 ? fmt::format("x = {:.4f}, y = {:.4f}", x, y)
-                                                     : fmt::format("x = {:.4f}", x);
+        const std::string place =
+            shipped.depth > 1 ? fmt::format("x = {:.4f}, y = {:.4f}, z = {:.4f}", at.x, at.y, at.z)
+            : shipped.height > 1 ? fmt::format("x = {:.4f}, y = {:.4f}", at.x, at.y)
+                                 : fmt::format("x = {:.4f}", at.x);
         compare(check, place, value, exact, off, off <= tolerance.largest);
     }
     return check;

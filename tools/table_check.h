@@ -40,7 +40,8 @@ TableCheck check_builtin(const luts::Table& baked);
 /// Of a file: values within this, whatever compiler and processor baked them.
 constexpr double file_tolerance = 1e-6;
 
-/// Values within file_tolerance, and a header that says the same.
+/// Values within file_tolerance, or the step of their rounding where they are rounded, and a header
+/// that says the same.
 TableCheck check_file(const luts::Table& baked, const luts::Table& shipped,
                       const std::string& file);
 
@@ -51,12 +52,14 @@ struct SpotTolerance
     bool relative;
 };
 
-/// A little more than the error that the table was baked with: what a damaged or stale table shows
-/// is far larger.
+/// A little more than the error that the compiled-in table was baked with: what a damaged or stale
+/// table shows is far larger.
 SpotTolerance spot_tolerance(const std::string& table);
+/// Twice the error that the file says: that of three axes is taken in the middle of cells only.
+SpotTolerance spot_tolerance(const luts::Table& table);
 
-/// At `spots` places spread over the table.
+/// At `spots` places spread over the part of the table that its error is promised for.
 TableCheck check_spots(const std::string& name, const TableView& shipped,
-                       const std::string& against, int spots);
+                       const SpotTolerance& tolerance, const std::string& against, int spots);
 
 }  // namespace regain::tools

@@ -31,6 +31,11 @@ struct Lattice
     {
         return i % between == 0 && j % between == 0 && k % between == 0;
     }
+    // Of three axes the middles of the cells, where most axes err, have to do.
+    bool is_used(int i, int j, int k) const
+    {
+        return depth == 1 || is_node(i, j, k) || (i % 2 && j % 2 && k % 2);
+    }
 };
 
 double coordinate(int i, int length) { return length > 1 ? i / (length - 1.0) : 0; }
@@ -56,7 +61,7 @@ Lattice integrate(const Definition& d, const BakeProgress& progress)
             std::vector<double> x;
             std::vector<int> places;
             for (int i = 0; i < l.width; ++i)
-                if (l.is_node(i, j, k) == nodes)
+                if (l.is_used(i, j, k) && l.is_node(i, j, k) == nodes)
                 {
                     x.push_back(coordinate(i, l.width));
                     places.push_back(i);
@@ -92,7 +97,9 @@ class Fit
 {
 public:
     Fit(const Definition& definition, const Lattice& lattice)
-        : _definition(definition), _lattice(lattice)
+        : _definition(definition),
+          _lattice(lattice),
+          _logarithmic(definition.info.transform == "ln")
     {
         const int n = lattice.between;
         for (int k = 0; k < definition.depth; ++k)
@@ -102,7 +109,8 @@ public:
         for (int k = 0; k < lattice.depth; ++k)
             for (int j = 0; j < lattice.height; ++j)
                 for (int i = 0; i < lattice.width; ++i)
-                    if (definition.family.promised(coordinate(i, lattice.width),
+                    if (lattice.is_used(i, j, k) &&
+                        definition.family.promised(coordinate(i, lattice.width),
                                                    coordinate(j, lattice.height),
                                                    coordinate(k, lattice.depth)))
                         _checks.push_back(check(i, j, k));
@@ -129,9 +137,12 @@ public:
                 }
             }
             for (std::size_t n = 0; n < _nodes.size(); ++n)
-                if (above[n] >= below[n])
-                    _nodes[n] = std::clamp(_nodes[n] * (1 - 0.2 * (above[n] + below[n])),
-                                           _definition.lowest, _definition.highest);
+            {
+                if (above[n] < below[n]) continue;  // no point that counts is near
+                const double step = 0.2 * (above[n] + below[n]);
+                _nodes[n] = std::clamp(_logarithmic ? _nodes[n] - step : _nodes[n] * (1 - step),
+                                       _definition.lowest, _definition.highest);
+            }
         }
     }
 
@@ -209,11 +220,13 @@ private:
         double value = 0;
         for (std::size_t corner = 0; corner < 8; ++corner)
             if (c.weight[corner] > 0) value += c.weight[corner] * _nodes[c.node + _offset[corner]];
+        if (_logarithmic) return std::expm1(std::min(value, 0.0) - c.exact);
         return _definition.fitted ? std::min(value, 1.0) / c.exact - 1 : value - c.exact;
     }
 
     const Definition& _definition;
     const Lattice& _lattice;
+    bool _logarithmic;
     std::vector<double> _nodes;
     std::vector<Check> _checks;
     std::size_t _offset[8] = {};
@@ -274,6 +287,8 @@ bool is_error_promised(const std::string& name, const TablePoint& at)
     return Definition::of(name).family.promised(at.x, at.y, at.z);
 }
 
+bool is_logarithmic(const std::string& name) { return Definition::of(name).info.transform == "ln"; }
+
 double interpolated(const TableView& table, const TablePoint& at)
 {
     if (table.depth > 1) return table.at(at.x, at.y, at.z);
@@ -287,7 +302,8 @@ Table bake(const std::string& name, const BakeProgress& progress)
     Fit fit(d, *lattice);
     if (d.fitted) fit.level();
 
-    if (d.half) fit.round_to_half();
+    if (d.rounding == Definition::Rounding::half) fit.round_to_half();
+    if (d.rounding == Definition::Rounding::stored) fit.round_to_stored();
     TableInfo info = d.info;
     std::vector<float> nodes = fit.nodes();
     fit.round_to_stored();

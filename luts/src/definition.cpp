@@ -37,16 +37,16 @@ double solve(double wanted, double lo, double hi, const F& f)
 // The inverses of the axes in closures/table.h and closures/dielectric_tables.h.
 
 double alpha_of_root(double y) { return std::max(y * y, smallest_alpha); }
-double alpha_of_tail_width(double y)
+double alpha_of_width(double y, double (*width)(const double&))
 {
-    if (y >= 1) return 1;
-    return std::max(solve(y, 0, 1, [](double alpha) { return tail_width(alpha); }), smallest_alpha);
+    return y >= 1 ? 1 : std::max(solve(y, 0, 1, width), smallest_alpha);
 }
 double mu_of_stretched_cosine(double x, double alpha)
 {
     const double r = x * x;
     return r * alpha / (1 - r + r * alpha);
 }
+double mu_of_plain_cosine(double x, double alpha) { return x * alpha / (1 - x + x * alpha); }
 double mu_of_tail_cosine(double x, double alpha)
 {
     if (x >= 1) return 1;
@@ -64,17 +64,31 @@ double mu_of_critical_cosine(double x, double alpha, double eta)
 double eta_of_coordinate(double z, bool inside)
 {
     // From inside, z = 0 is the limit at fixed x, which eta = 1 itself does not have.
-    const double root = inside ? std::max(z, 1e-4) : z, q = root * root * 3 / 5;
+    const double root = inside ? std::max(z, 1e-2) : z, q = std::pow(root, 4) * 3 / 5;
     return inside ? (1 - q) / (1 + q) : (1 + q) / (1 - q);
 }
 
-double first(const Family::Values& v) { return v[0]; }
-double second(const Family::Values& v) { return v[1]; }
-double third(const Family::Values& v) { return v[2]; }
-double correlated_sum(const Family::Values& v) { return v[0] + v[1]; }
-double beta_sum(const Family::Values& v) { return v[0] + v[2]; }
-double correlated_share(const Family::Values& v) { return v[0] / (v[0] + v[1]); }
-double beta_share(const Family::Values& v) { return v[0] / (v[0] + v[2]); }
+using Values = Family::Values;
+
+double first(const Values& v) { return v[0]; }
+double second(const Values& v) { return v[1]; }
+double third(const Values& v) { return v[2]; }
+double log_first(const Values& v) { return std::log(v[0]); }
+
+// Less than this nobody asks for: it is for a surface of alpha 1 below mu 0.03.
+constexpr double lowest_logarithm = -15.9;
+double correlated_sum(const Values& v) { return v[0] + v[1]; }
+double log_beta_sum(const Values& v)
+{
+    return std::max(lowest_logarithm, std::log(std::max(v[0] + v[2], 1e-300)));
+}
+double share(double reflected, double transmitted, double smooth)
+{
+    const double sum = reflected + transmitted;
+    return sum > 0 ? reflected / sum - smooth : 0;
+}
+double correlated_share(const Values& v) { return share(v[0], v[1], v[3]); }
+double beta_share(const Values& v) { return share(v[0], v[2], v[3]); }
 
 const char* const distributions[] = {"ggx", "beckmann", "gtr", "std"};
 const char* const directional[] = {"E_ss", "E_avg", "falloff", "dip"};
@@ -97,6 +111,12 @@ bool is_tailed(const std::string& distribution)
 
 }  // namespace
 
+double Family::alpha_of_tailed(double coordinate) const
+{
+    return alpha_of_width(coordinate,
+                          distribution == "gtr" ? gtr_width<double> : std_width<double>);
+}
+
 bool Family::operator==(const Family& other) const
 {
     return kind == other.kind && distribution == other.distribution && gamma == other.gamma &&
@@ -113,7 +133,7 @@ std::vector<Family::Values> Family::row(const std::vector<double>& xs, double y,
         return distribution == "gtr" ? gtr_gamma(coordinate) : std_gamma(coordinate);
     };
     const auto alpha_at = [&](double coordinate) {
-        return tail_axis ? alpha_of_tail_width(coordinate) : alpha_of_root(coordinate);
+        return tail_axis ? alpha_of_tailed(coordinate) : alpha_of_root(coordinate);
     };
 
     if (kind == Kind::average)
@@ -121,7 +141,7 @@ std::vector<Family::Values> Family::row(const std::vector<double>& xs, double y,
         for (double x : xs)
         {
             const SlopeLaw law = SlopeLaw::named(distribution, alpha_at(x), tail_at(y));
-            values.push_back({average_albedo(law, {nodes}), 0, 0});
+            values.push_back({average_albedo(law, {nodes}), 0, 0, 0});
         }
         return values;
     }
@@ -136,19 +156,22 @@ std::vector<Family::Values> Family::row(const std::vector<double>& xs, double y,
             const double mu = std::max(1e-6, inside ? mu_of_critical_cosine(x, alpha, eta)
                                                     : mu_of_stretched_cosine(x, alpha));
             const DielectricAlbedo a = dielectric_albedo(law, mu, eta, nodes);
-            values.push_back({a.reflected, a.transmitted_correlated, a.transmitted_beta});
+            values.push_back(
+                {a.reflected, a.transmitted_correlated, a.transmitted_beta,
+                 detail::fresnel_weight(alpha, eta) * dielectric_reflectance(mu, eta)});
             continue;
         }
         const auto mu_at = [&](double coordinate) {
-            return tail_axis ? mu_of_tail_cosine(coordinate, alpha)
-                             : mu_of_stretched_cosine(coordinate, alpha);
+            return tail_axis                    ? mu_of_tail_cosine(coordinate, alpha)
+                   : distribution == "beckmann" ? mu_of_plain_cosine(coordinate, alpha)
+                                                : mu_of_stretched_cosine(coordinate, alpha);
         };
         // At mu = 0 all is reflected, but there is nothing left to take a mean of; next to it the
         // limit can be read off.
         const double mu = mu_at(std::max(x, 1e-3));
         const AlbedoMoments m = albedo_moments(law, mu, {nodes});
         const auto facet = FresnelMoments<double>::at(mu);
-        values.push_back({m.E_ss, m.falloff - facet.falloff, m.dip - facet.dip});
+        values.push_back({m.E_ss, m.falloff - facet.falloff, m.dip - facet.dip, 0});
         if (x < 1e-3) values.back()[0] = x > 0 ? albedo(law, mu_at(x), {}, {nodes}) : 1.0;
     }
     return values;
@@ -156,15 +179,15 @@ std::vector<Family::Values> Family::row(const std::vector<double>& xs, double y,
 
 bool Family::promised(double x, double y, double z) const
 {
-    if (kind == Kind::average) return !has_tail_axis() || alpha_of_tail_width(x) >= 5e-4;
+    if (kind == Kind::average) return !has_tail_axis() || alpha_of_tailed(x) >= 5e-4;
     if (kind == Kind::dielectric)
     {
         const double alpha = alpha_of_root(y), eta = eta_of_coordinate(z, inside);
         return (inside ? mu_of_critical_cosine(x, alpha, eta) : mu_of_stretched_cosine(x, alpha)) >=
-               0.01;
+               0.018;
     }
     if (!has_tail_axis()) return true;
-    const double alpha = alpha_of_tail_width(y);
+    const double alpha = alpha_of_tailed(y);
     return alpha >= 5e-4 && mu_of_tail_cosine(x, alpha) >= 7e-4;
 }
 
@@ -202,9 +225,10 @@ Definition Definition::of(const std::string& name)
             const std::string mu_axis =
                 tailed ? "3/4 (1 + ln((k + s) / (1 + s)) / ln(1 / k)) + 1/4 s / (1 + s), s = cot "
                          "theta, k = 0.004 sqrt(alpha)"
-                       : "sqrt(mu / (mu + alpha (1 - mu)))";
+                : info.distribution == "beckmann" ? "mu / (mu + alpha (1 - mu))"
+                                                  : "sqrt(mu / (mu + alpha (1 - mu)))";
             const std::string alpha_axis =
-                tailed ? "0.7 ln(1 + 1000 alpha) / ln 1001 + 0.3 alpha" : "sqrt(alpha)";
+                tailed ? info.distribution + "_width(alpha)" : "sqrt(alpha)";
             const std::string tail_axis = tailed ? info.distribution + "_tail(gamma)" : "";
             info.axis_x = average ? alpha_axis : mu_axis;
             info.axis_y = average ? tail_axis : alpha_axis;
@@ -215,11 +239,19 @@ Definition Definition::of(const std::string& name)
                     info.axis_z = tail_axis;
                     d.depth = table_nodes;
                 }
-                d.half = true;
-                d.node_accuracy = 40;
+                d.rounding = Rounding::half;
+                d.node_accuracy = 36;
                 d.check_accuracy = 20;
                 info.scale = rest == "dip" ? 0x1p-19 : rest == "falloff" ? 0x1p-15 : 0x1p-16;
                 info.offset = rest == "dip" ? -0x1p-4 : rest == "falloff" ? -1 : 0x1p-16;
+                if (d.fitted && info.distribution == "std")
+                {
+                    info.transform = "ln";
+                    d.value = log_first;
+                    d.rounding = Rounding::stored;
+                    info.scale = 0x1p-13;
+                    info.offset = -65535 * info.scale;
+                }
                 d.lowest = info.offset;
                 d.highest = info.offset + 65535 * info.scale;
             }
@@ -269,22 +301,29 @@ Definition Definition::of(const std::string& name)
                 d.width = d.height = d.depth = table_nodes;
                 d.fitted = !share;
                 d.value = share ? (beta ? beta_share : correlated_share)
-                                : (beta ? beta_sum : correlated_sum);
+                                : (beta ? log_beta_sum : correlated_sum);
                 info.axis_x = d.family.inside ? "critical_cosine_coordinate(mu, alpha, eta)"
                                               : "sqrt(mu / (mu + alpha (1 - mu)))";
                 info.axis_y = "sqrt(alpha)";
-                info.axis_z = "sqrt(5/3 |eta - 1| / (eta + 1))";
+                info.axis_z = "(5/3 |eta - 1| / (eta + 1))^(1/4)";
                 info.method = "Gauss-Legendre over facets, polar about wo";
                 if (d.fitted) info.method += ", nodes levelled for the least largest error";
                 info.error_kind = d.fitted ? "relative" : "absolute";
-                d.node_accuracy = 28;
-                d.check_accuracy = 20;
+                d.node_accuracy = 24;
+                d.check_accuracy = 18;
                 info.nodes = d.node_accuracy;
+                d.rounding = Rounding::half;
                 info.scale = share ? 0x1p-15 : 0x1p-16;
-                info.offset = share ? 0 : 0x1p-16;
+                info.offset = share ? -1 : 0x1p-16;
+                if (beta && !share)
+                {
+                    info.transform = "ln";
+                    d.rounding = Rounding::stored;
+                    info.scale = 0x1p-12;
+                    info.offset = -65535 * info.scale;
+                }
                 d.lowest = info.offset;
-                d.highest = 1;
-                d.half = true;
+                d.highest = info.offset + 65535 * info.scale;
                 return d;
             }
     refuse(name, "");

@@ -17,9 +17,9 @@ struct Family
     enum class Kind {
         directional,  // E_ss, falloff, dip
         average,      // E_avg
-        dielectric    // E^R, correlated E^T, E^T in the beta form
+        dielectric    // E^R, correlated E^T, E^T in the beta form, w F(mu)
     };
-    using Values = std::array<double, 3>;
+    using Values = std::array<double, 4>;
 
     Kind kind = Kind::directional;
     std::string distribution;
@@ -30,6 +30,7 @@ struct Family
     {
         return gamma == 0 && (distribution == "gtr" || distribution == "std");
     }
+    double alpha_of_tailed(double coordinate) const;
     bool operator==(const Family& other) const;
 
     /// The values at (x, y, z) for every x of a row. Averages have their alpha along x, their tail
@@ -49,7 +50,8 @@ struct Definition
     bool fitted;             // levelled for the least largest relative error; else exact
     double lowest, highest;  // that a node can be
     int node_accuracy, check_accuracy;
-    bool half = false;  // nodes are rounded to half floats, for a small file
+    // What nodes are rounded to for a small file.
+    enum class Rounding { none, half, stored } rounding = Rounding::none;
     double (*value)(const Family::Values&);
 
     /// Throws std::invalid_argument, which says what names there are.

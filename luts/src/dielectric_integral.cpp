@@ -50,7 +50,8 @@ public:
           _theta_o(std::atan2(_sin_o, mu)),
           _sigma_o(law.projected_area(mu)),
           _lambda_o(std::max(0.0, _sigma_o / mu - 1)),
-          _log_gamma_o(log_gamma(2 + _lambda_o))
+          _log_gamma_o(log_gamma(2 + _lambda_o)),
+          _lowest_z(std::cos(std::atan(law.longest())))
     {}
 
     DielectricAlbedo integrate()
@@ -145,14 +146,15 @@ private:
             }
         };
 
-        over(0, psi_at(_mu / (2 * c)), [&](double m_z, double weight) {
+        const double last = psi_at(_lowest_z);  // where D ends
+        over(0, std::min(last, psi_at(_mu / (2 * c))), [&](double m_z, double weight) {
             _sum.reflected += weight * F * correlated(2 * c * m_z - _mu);
         });
         if (g2 <= 0) return;
         // wt.z eta = (c - g) m_z - mu has to be negative.
         const double bend = -_k / (c + g);
         const double first = bend > 0 ? psi_at(_mu / bend) : 0;
-        over(first, psi_at(0), [&](double m_z, double weight) {
+        over(first, last, [&](double m_z, double weight) {
             const double mu_t = std::min(1.0, (_mu - bend * m_z) / _eta);
             if (mu_t <= 0) return;
             _sum.transmitted_correlated += weight * (1 - F) * correlated(mu_t);
@@ -177,10 +179,17 @@ private:
     const SlopeLaw& _law;
     const QuadratureRule& _rule;
     double _mu, _eta, _k, _sin_o, _theta_o, _sigma_o, _lambda_o, _log_gamma_o;
+    double _lowest_z;  // of a facet's normal
     DielectricAlbedo _sum{0, 0, 0};
 };
 
 }  // namespace
+
+double dielectric_reflectance(double c, double eta_o)
+{
+    const double g2 = (eta_o - 1) * (eta_o + 1) + c * c;
+    return g2 > 0 ? fresnel(c, std::sqrt(g2)) : 1;
+}
 
 DielectricAlbedo dielectric_albedo(const SlopeLaw& law, double mu, double eta_o, int nodes)
 {

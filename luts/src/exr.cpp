@@ -69,6 +69,7 @@ void for_each_field(Info& info, const Visit& visit)
     visit("axis_x", info.axis_x);
     visit("axis_y", info.axis_y);
     visit("axis_z", info.axis_z);
+    visit("transform", info.transform);
     visit("method", info.method);
     visit("nodes", info.nodes);
     visit("error", info.error);

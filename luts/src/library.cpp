@@ -104,6 +104,18 @@ Table load(Library& lib, const std::string& name)
                              bake_command(name));
 }
 
+const Table& loaded(const std::string& name)
+{
+    require_bakeable(name);
+    Library& lib = library();
+    const std::lock_guard<std::mutex> lock(lib.mutex);
+    auto& table = lib.tables[name];
+    if (!table) table = std::make_unique<const Table>(load(lib, name));
+    return *table;
+}
+
+bool is_logarithmic(const Table& table) { return table.info().transform == "ln"; }
+
 }  // namespace
 
 void set_table_folders(std::vector<fs::path> folders)
@@ -122,23 +134,19 @@ std::vector<fs::path> table_folders()
 
 TableView table_named(const std::string& name)
 {
-    if (const TableView builtin = builtin_table(name)) return builtin;
-    require_bakeable(name);
-
-    Library& lib = library();
-    const std::lock_guard<std::mutex> lock(lib.mutex);
-    auto& table = lib.tables[name];
-    if (!table) table = std::make_unique<const Table>(load(lib, name));
-    return table->view();
+    const TableView builtin = builtin_table(name);
+    return builtin ? builtin : loaded(name).view();
 }
 
 MicrofacetTables microfacet_tables(const std::string& distribution)
 {
+    if (distribution == "ggx") return ggx_tables();
     MicrofacetTables tables;
-    tables.E_ss = table_named(distribution + "_E_ss");
-    tables.E_avg = table_named(distribution + "_E_avg");
-    tables.falloff = table_named(distribution + "_falloff");
-    tables.dip = table_named(distribution + "_dip");
+    tables.E_ss = loaded(distribution + "_E_ss").view();
+    tables.E_avg = loaded(distribution + "_E_avg").view();
+    tables.falloff = loaded(distribution + "_falloff").view();
+    tables.dip = loaded(distribution + "_dip").view();
+    tables.logarithmic = is_logarithmic(loaded(distribution + "_E_ss"));
     return tables;
 }
 
@@ -154,9 +162,11 @@ DielectricTables dielectric_tables(const std::string& distribution, Transmission
     {
         info.side = side == 0 ? "outside" : "inside";
         info.quantity = "E_S";
-        tables.E[side] = table_named(table_name(info));
+        const Table& sum = loaded(table_name(info));
+        tables.E[side] = sum.view();
+        tables.logarithmic = is_logarithmic(sum);
         info.quantity = "R_share";
-        tables.R[side] = table_named(table_name(info));
+        tables.R[side] = loaded(table_name(info)).view();
     }
     return tables;
 }

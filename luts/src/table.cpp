@@ -3,6 +3,9 @@
 
 #include <regain/luts/table.h>
 
+#include <Imath/half.h>
+
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -58,6 +61,21 @@ TableView Table::view() const
     v.offset = static_cast<float>(_info.offset);
     v.scale = static_cast<float>(_info.scale);
     return v;
+}
+
+double storage_step(const Table& table, double value)
+{
+    const auto all = [&](const auto& holds) {
+        return std::all_of(table.values().begin(), table.values().end(), holds);
+    };
+    if (all([](float v) { return static_cast<float>(Imath::half(v)) == v; }))
+        return std::ldexp(1.0, std::max(std::ilogb(value), -14) - 10);
+    const TableInfo& info = table.info();
+    const bool on_grid = all([&](float v) {
+        const double s = (static_cast<double>(v) - info.offset) / info.scale;
+        return s == std::round(s);
+    });
+    return on_grid ? info.scale : 0;
 }
 
 }  // namespace luts

@@ -34,8 +34,8 @@ protected:
         std::vector<float> values = shipped.values();
         values[7] += 1e-3f;
         const std::filesystem::path file = folder / "tampered.exr";
-        regain::luts::write_table(
-            file, regain::luts::Table(shipped.info(), shipped.width(), shipped.height(), values));
+        regain::luts::write_table(file, regain::luts::Table(shipped.info(), shipped.width(),
+                                                            shipped.height(), 1, values));
         return file.string();
     }
 };
@@ -83,7 +83,7 @@ TEST_F(BakeCommand, spots_of_all_tables_are_quick)
 {
     const auto o = run("bake --verify --spot 10 --json");
     EXPECT_EQ(o.code, 0) << o.err;
-    EXPECT_EQ(o.json().size(), regain::luts::bakeable_tables().size());
+    EXPECT_EQ(o.json().size(), regain::luts::compiled_in_tables().size());
     EXPECT_EQ(o.json()[0]["numbers"], 10);
 }
 

@@ -45,6 +45,7 @@ public:
 
     static constexpr int random_numbers = 2;
     static constexpr bool has_tail = false;
+    static constexpr CosineAxis cosine_axis = CosineAxis::plain;
 
     /// Widths along x and y in [0, 1]; outside they are clamped, NaN becomes 1. One axis narrower
     /// than delta_alpha is widened to it unless both are.

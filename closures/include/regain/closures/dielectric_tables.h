@@ -14,16 +14,25 @@
 ///     x   of the cosine. With s(t, a) = sqrt(t / (t + a (1 - t))), which gathers nodes within a of
 ///         t = 0,
 ///           side 0   s(mu, alpha), as for conductors
-///           side 1   kappa lies at the fixed coordinate c = 12/31, a node of 32, and
-///             mu < kappa    c (1 + s(t, a) - s(1 - t, a)) / 2,  t = mu / kappa, a = alpha / kappa
+///           side 1   kappa lies at the fixed coordinate c = 15/31, a node of 32, and
+///             mu < kappa    c (0.6 s(t, a) + 0.4 (1 - s(1 - t, a))),  t = mu / kappa,
+///                           a = alpha / kappa
 ///             mu >= kappa   c + (1 - c) s(t, a),  t = (mu - kappa) / (1 - kappa),
 ///                           a = alpha / (1 - kappa);   a is limited to 1
 ///     y   sqrt(alpha)
-///     z   sqrt(|eta - 1| / (eta + 1) / (3/5)): 0 at eta 1, 1 at eta 4 and 1/4; beyond, the end
-///         serves. Near 1 it is proportional to the cosine at which Fresnel reflection sets in.
+///     z   (|eta - 1| / (eta + 1) / (3/5))^(1/4): 0 at eta 1, 1 at eta 4 and 1/4; beyond, the end
+///         serves. Near 1 its square is proportional to the cosine at which Fresnel reflection sets
+///         in, and it is small cosines that matter most.
+///
+/// The reflected share is tabulated less w F(mu), w = k / (k + alpha^2), k = |eta_o^2 - 1|: where
+/// alpha is small, Fresnel's term at mu is the share of the surface, and what is left is smooth;
+/// where alpha is larger than the cosine that Fresnel's term turns at, it has no part in the share.
+/// E^S in the beta form falls to nothing at grazing angles, and so
+/// is tabulated as a logarithm.
 
 #pragma once
 
+#include <regain/closures/dielectric_fresnel.h>
 #include <regain/closures/table.h>
 
 REGAIN_NAMESPACE_BEGIN
@@ -31,14 +40,22 @@ REGAIN_NAMESPACE_BEGIN
 namespace detail {
 
 /// Where the critical cosine lies on the axis of side 1.
-constexpr double critical_coordinate = 12.0 / 31.0;
+constexpr double critical_coordinate = 15.0 / 31.0;
 
 /// z above, of eta > 0.
 template <class Real>
 Real index_coordinate(Real eta)
 {
-    return sqrt(
-        min(abs(eta - Real(1)) / (eta + Real(1)) * constant<Real>(5.0 / 3.0), constant<Real>(1)));
+    return sqrt(sqrt(
+        min(abs(eta - Real(1)) / (eta + Real(1)) * constant<Real>(5.0 / 3.0), constant<Real>(1))));
+}
+
+/// w above.
+template <class Real>
+Real fresnel_weight(Real alpha, Real eta)
+{
+    const Real k = abs((eta - Real(1)) * (eta + Real(1)));
+    return k / (k + alpha * alpha);
 }
 
 /// x of side 1 above: mu in [0, 1], alpha in (0, 1], eta in (0, 1).
@@ -48,8 +65,8 @@ Real critical_cosine_coordinate(Real mu, Real alpha, Real eta)
     const Real one(1), tiny = constant<Real>(1e-6);
     const Real kappa = sqrt(max((one - eta) * (one + eta), constant<Real>(1e-12)));
     const Real below = min(mu / kappa, one), a = min(alpha / kappa, one);
-    const Real left =
-        Real(0.5f) * (one + stretched_cosine(below, a) - stretched_cosine(one - below, a));
+    const Real left = constant<Real>(0.6) * stretched_cosine(below, a) +
+                      constant<Real>(0.4) * (one - stretched_cosine(one - below, a));
 
     const Real room = max(one - kappa, tiny);
     const Real above = saturate((mu - kappa) / room);
@@ -65,8 +82,9 @@ Real critical_cosine_coordinate(Real mu, Real alpha, Real eta)
 /// is empty, and nothing may be looked up.
 struct DielectricTables
 {
-    TableView E[2];  ///< E^S over (x, y, z), by side
-    TableView R[2];  ///< E^R / E^S over (x, y, z), by side
+    TableView E[2];            ///< E^S over (x, y, z), by side
+    TableView R[2];            ///< E^R / E^S - w F(mu) over (x, y, z), by side
+    bool logarithmic = false;  ///< E holds natural logarithms
 
     explicit operator bool() const { return E[0] && E[1] && R[0] && R[1]; }
 
@@ -74,14 +92,17 @@ struct DielectricTables
     template <class Real>
     Real albedo(Real alpha, Real eta_o, Real mu) const
     {
-        return detail::min(look_up(E, alpha, eta_o, mu), Real(1));
+        const Real found = look_up(E, alpha, eta_o, mu);
+        return detail::min(logarithmic ? detail::exp(found) : found, Real(1));
     }
 
     /// E^R / E^S, in [0, 1]; arguments as above.
     template <class Real>
     Real reflected_share(Real alpha, Real eta_o, Real mu) const
     {
-        return detail::saturate(look_up(R, alpha, eta_o, mu));
+        const Real F = DielectricFresnel<Real>(eta_o).reflectance(mu);
+        const Real w = detail::fresnel_weight(alpha, eta_o);
+        return detail::saturate(w * F + look_up(R, alpha, eta_o, mu));
     }
 
 private:

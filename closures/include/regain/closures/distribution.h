@@ -10,6 +10,8 @@
 ///     is_delta()               both widths at or below delta_alpha: the surface is flat
 ///     effective_alpha()        one width in place of two, for what is tabulated over one alpha
 ///     gamma(), tail()          tail parameter; its coordinate in [0, 1] along a table's third axis
+///     cosine_axis              static: how tables of it run along the cosine; root if not there
+///     table_width(alpha)       static, with a tail only: coordinate along a table's second axis
 ///     D(m), D(h, length2)      density of normals, per steradian, int D(m) m_z dm = 1; h = m |h|
 ///                              need not be unit, length2 = h.h
 ///     projected_area(w)        sigma(w) = int max(0, w.m) D(m) dm, the area of the visible
@@ -35,7 +37,21 @@
 
 REGAIN_NAMESPACE_BEGIN
 
+/// How the cosine runs along the first axis of a table: see table.h.
+enum class CosineAxis { root, plain, tail };
+
 namespace detail {
+
+template <class Distribution, class = void>
+struct CosineAxisOf
+{
+    static constexpr CosineAxis value = CosineAxis::root;
+};
+template <class Distribution>
+struct CosineAxisOf<Distribution, std::void_t<decltype(Distribution::cosine_axis)>>
+{
+    static constexpr CosineAxis value = Distribution::cosine_axis;
+};
 
 /// The third table coordinate of a distribution: 0 where it has no tail parameter.
 template <class Distribution>
@@ -45,6 +61,16 @@ typename Distribution::Real tail_of([[maybe_unused]] const Distribution& distrib
         return distribution.tail();
     else
         return typename Distribution::Real(0);
+}
+
+/// The second table coordinate of a width: its root where there is no tail parameter.
+template <class Distribution>
+typename Distribution::Real table_width_of(typename Distribution::Real alpha)
+{
+    if constexpr (Distribution::has_tail)
+        return Distribution::table_width(alpha);
+    else
+        return sqrt(alpha);
 }
 
 }  // namespace detail

@@ -43,6 +43,7 @@ public:
 
     static constexpr int random_numbers = 3;
     static constexpr bool has_tail = true;
+    static constexpr CosineAxis cosine_axis = CosineAxis::tail;
 
     /// Widths along x and y in [0, 1]; outside they are clamped, NaN becomes 1. One axis narrower
     /// than delta_alpha is widened to it unless both are. gamma in [gtr_min_gamma, gtr_max_gamma];
@@ -68,6 +69,8 @@ public:
     /// Tail parameter, and its coordinate along the third axis of tables.
     Real gamma() const { return _gamma; }
     Real tail() const { return gtr_tail(_gamma); }
+    /// Coordinate of a width along the second axis.
+    static Real table_width(Real alpha) { return gtr_width(alpha); }
 
     /// D of the normal m along h, which need not be unit: length2 = h.h. Per steradian. At least
     /// 1e-25, so that quotients of it stay finite.

@@ -48,6 +48,7 @@ public:
 
     static constexpr int random_numbers = 3;
     static constexpr bool has_tail = true;
+    static constexpr CosineAxis cosine_axis = CosineAxis::tail;
 
     /// Widths along x and y in [0, 1]; outside they are clamped, NaN becomes 1. One axis narrower
     /// than delta_alpha is widened to it unless both are. gamma in [std_min_gamma, std_max_gamma];
@@ -78,6 +79,8 @@ public:
     /// Tail parameter, and its coordinate along the third axis of tables.
     Real gamma() const { return _gamma; }
     Real tail() const { return std_tail(_gamma); }
+    /// Coordinate of a width along the second axis.
+    static Real table_width(Real alpha) { return std_width(alpha); }
 
     /// D of the normal m along h, which need not be unit: length2 = h.h. Per steradian.
     Real D(const Vec3<Real>& h, Real length2) const

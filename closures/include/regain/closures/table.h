@@ -9,15 +9,17 @@
 /// axis is stretched by alpha:
 ///     x = sqrt(mu / (mu + alpha (1 - mu)))   in [0, 1]
 ///     y = sqrt(alpha)                        in [0, 1]
-/// with mu = |cos theta_o| in [0, 1], alpha in [0, 1].
+/// with mu = |cos theta_o| in [0, 1], alpha in [0, 1]. Beckmann's dip is narrower, and needs no
+/// root:
+///     x = mu / (mu + alpha (1 - mu))
 ///
 /// A distribution with a tail parameter gamma has a third axis z in [0, 1], its tail(): see
 /// distribution.h and tail.h. Its tail matters at slopes of 1 whatever alpha is, and near normal
-/// incidence its E_ss is linear in theta, not mu. So the other two axes are logarithms, with a
-/// linear part that holds the nodes together where the logarithm is flat:
+/// incidence its E_ss is linear in theta, not mu. So the other two axes are logarithms, with a part
+/// that holds the nodes together where the logarithm is flat:
 ///     x = 3/4 (1 + ln((k + s) / (1 + s)) / ln(1 / k)) + 1/4 s / (1 + s),
 ///                                            s = cot theta_o, k = 0.004 sqrt(alpha)
-///     y = 0.7 ln(1 + 1000 alpha) / ln 1001 + 0.3 alpha
+///     y = its table_width(alpha)
 
 #pragma once
 
@@ -34,7 +36,14 @@ Real stretched_cosine(Real mu, Real alpha)
     return detail::sqrt(mu / (mu + alpha * (Real(1) - mu)));
 }
 
-/// x and y above of distributions with a tail; mu in [0, 1], alpha in (0, 1].
+/// x above of Beckmann; arguments as before.
+template <class Real>
+Real plain_cosine(Real mu, Real alpha)
+{
+    return mu / (mu + alpha * (Real(1) - mu));
+}
+
+/// x above of distributions with a tail; mu in [0, 1], alpha in (0, 1].
 template <class Real>
 Real tail_cosine(Real mu, Real alpha)
 {
@@ -43,14 +52,6 @@ Real tail_cosine(Real mu, Real alpha)
     const Real l = Real(1) - detail::log((k * c + s) * scale) / detail::log(k);
     return detail::saturate(Real(0.75f) * l + Real(0.25f) * s * scale);
 }
-template <class Real>
-Real tail_width(Real alpha)
-{
-    return detail::saturate(detail::constant<Real>(0.7 / 6.9087547793152205) *
-                                detail::log(Real(1) + Real(1000) * alpha) +
-                            detail::constant<Real>(0.3) * alpha);
-}
-
 /// A table of `width` x `height` x `depth` 16-bit numbers, x fastest; an axis that is not there has
 /// length 1. A value is offset + scale * stored. The default is no table.
 struct TableView
@@ -137,9 +138,10 @@ public:
     template <class Distribution>
     explicit TableAxes(const Distribution& distribution)
         : _alpha(distribution.effective_alpha()),
-          _width(Distribution::has_tail ? tail_width(_alpha) : detail::sqrt(_alpha)),
+          _width(detail::table_width_of<Distribution>(_alpha)),
           _tail(detail::tail_of(distribution)),
-          _has_tail(Distribution::has_tail)
+          _has_tail(Distribution::has_tail),
+          _cosine(detail::CosineAxisOf<Distribution>::value)
     {}
 
     Real alpha() const { return _alpha; }
@@ -147,8 +149,10 @@ public:
     /// mu in [0, 1].
     Real directional(const TableView& table, Real mu) const
     {
-        return _has_tail ? table.at(tail_cosine(mu, _alpha), _width, _tail)
-                         : table.at(stretched_cosine(mu, _alpha), _width);
+        const Real x = _cosine == CosineAxis::tail    ? tail_cosine(mu, _alpha)
+                       : _cosine == CosineAxis::plain ? plain_cosine(mu, _alpha)
+                                                      : stretched_cosine(mu, _alpha);
+        return _has_tail ? table.at(x, _width, _tail) : table.at(x, _width);
     }
     Real average(const TableView& table) const
     {
@@ -158,6 +162,7 @@ public:
 private:
     Real _alpha, _width, _tail;
     bool _has_tail;
+    CosineAxis _cosine;
 };
 
 /// What is tabulated of one distribution. A view that is empty is a table nobody needs.
@@ -168,17 +173,27 @@ struct MicrofacetTables
     /// Over (x, y[, z]): the moments of fresnel_moments.h over all that is scattered once, each
     /// less its value at mu.
     TableView falloff, dip;
+    /// E_ss and E_avg hold natural logarithms: where they fall to a few hundredths, straight lines
+    /// between those err less.
+    bool logarithmic = false;
 
     /// E_ss at the cosine mu in [0, 1], at most 1.
     template <class Real>
     Real albedo(const TableAxes<Real>& axes, Real mu) const
     {
-        return detail::min(axes.directional(E_ss, mu), Real(1));
+        return detail::min(value(axes.directional(E_ss, mu)), Real(1));
     }
     template <class Real>
     Real average_albedo(const TableAxes<Real>& axes) const
     {
-        return axes.average(E_avg);
+        return value(axes.average(E_avg));
+    }
+
+private:
+    template <class Real>
+    Real value(Real number) const
+    {
+        return logarithmic ? detail::exp(number) : number;
     }
 };
 

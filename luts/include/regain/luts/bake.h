@@ -68,8 +68,11 @@ struct TablePoint
 REGAIN_LUTS_API double exact_value(const std::string& name, const TablePoint& at, int nodes);
 
 /// Whether the table's error is promised at a point: distributions with a tail from alpha 5e-4 and
-/// mu 7e-4 on, dielectrics from mu 0.01 on, anything else everywhere.
+/// mu 7e-4 on, dielectrics from mu 0.018 on, anything else everywhere.
 REGAIN_LUTS_API bool is_error_promised(const std::string& name, const TablePoint& at);
+
+/// Whether the table of that name holds natural logarithms.
+REGAIN_LUTS_API bool is_logarithmic(const std::string& name);
 
 /// The number of a table at a point, bilinear, as look-ups find it but for the limit to 1.
 REGAIN_LUTS_API double interpolated(const TableView& table, const TablePoint& at);

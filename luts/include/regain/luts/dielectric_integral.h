@@ -35,5 +35,9 @@ struct DielectricAlbedo
 REGAIN_LUTS_API DielectricAlbedo dielectric_albedo(const SlopeLaw& law, double mu, double eta_o,
                                                    int nodes = 24);
 
+/// Unpolarised Fresnel reflectance at the cosine c in (0, 1], eta_o as above (Walter et al. 2007,
+/// Eq. 22).
+REGAIN_LUTS_API double dielectric_reflectance(double c, double eta_o);
+
 }  // namespace luts
 REGAIN_NAMESPACE_END

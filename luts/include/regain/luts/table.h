@@ -31,10 +31,11 @@ struct TableInfo
     std::string transmission_shadowing;  ///< "correlated" or "beta"; empty without transmission
     std::string side;  ///< "outside", eta_o >= 1, or "inside"; empty without transmission
     std::string axis_x, axis_y, axis_z;  ///< formula of each axis; empty for one that is not there
-    std::string method;                  ///< how the numbers came about, with node counts
-    int nodes = 0;                       ///< of the quadrature, along each piece
-    double error = 0;                    ///< largest measured interpolation error, see error_kind
-    std::string error_kind;              ///< "relative" or "absolute"
+    std::string transform;   ///< "ln" where the numbers are logarithms of the quantity; else empty
+    std::string method;      ///< how the numbers came about, with node counts
+    int nodes = 0;           ///< of the quadrature, along each piece
+    double error = 0;        ///< largest measured interpolation error, see error_kind
+    std::string error_kind;  ///< "relative" or "absolute"
     int definition = table_definition;
     double offset = 0, scale = 1;  ///< of the 16-bit form: value = offset + scale * stored
 };
@@ -70,6 +71,10 @@ private:
     std::vector<float> _values;
     std::vector<std::uint16_t> _stored;
 };
+
+/// The step between two numbers that a table may hold about a value: what baking the same table
+/// elsewhere may differ by. 0 for floats that were not rounded.
+REGAIN_LUTS_API double storage_step(const Table& table, double value);
 
 }  // namespace luts
 REGAIN_NAMESPACE_END

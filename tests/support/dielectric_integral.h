@@ -63,8 +63,6 @@ struct DielectricIntegral
     }
 };
 
-namespace detail {
-
 // Along the ray of azimuth phi in the stretched plane of slopes, rho drho. `at(m)` is the integrand
 // per dm.
 template <class F>
@@ -91,9 +89,10 @@ DielectricIntegral along_ray(const Vec3<double>& wo, double eta_o, double alpha_
     for (int i = 0; i < steps; ++i)
     {
         const int after = state(double(i + 1) / steps);
-        // Two edges may lie in one step.
+        // A few edges may lie in one step; where rounding decides a state they seem to be many.
         double a = double(i) / steps;
-        for (int seen = before; seen != after;)
+        int seen = before;
+        for (int found = 0; found < 4 && seen != after; ++found)
         {
             double b = double(i + 1) / steps;
             for (int k = 0; k < 46; ++k)
@@ -128,8 +127,6 @@ DielectricIntegral along_ray(const Vec3<double>& wo, double eta_o, double alpha_
     return sum;
 }
 
-}  // namespace detail
-
 /// The integral over the facets that face wo, wo.z > 0, of at(m) per dm, within about `tolerance`.
 template <class F>
 DielectricIntegral integrate_facets(const Vec3<double>& wo, double eta_o, double alpha_x,
@@ -139,9 +136,8 @@ DielectricIntegral integrate_facets(const Vec3<double>& wo, double eta_o, double
     const auto arc = [&](double from, double to) {
         DielectricIntegral sum;
         for (std::size_t i = 0; i < rule.x.size(); ++i)
-            sum.add(
-                detail::along_ray(wo, eta_o, alpha_x, alpha_y, from + (to - from) * rule.x[i], at),
-                rule.weight[i] * (to - from));
+            sum.add(along_ray(wo, eta_o, alpha_x, alpha_y, from + (to - from) * rule.x[i], at),
+                    rule.weight[i] * (to - from));
         return sum;
     };
     // Halves an arc until its halves say the same.

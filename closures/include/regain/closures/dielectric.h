@@ -160,7 +160,7 @@ public:
             const Real share = detail::select(reflect, F.reflectance, F.transmittance);
             const Real choice = both_lobes() ? share : Real(1);
             const Real passed = both_lobes() ? Real(1) : share;
-            const Real delta_weight = passed * detail::select(_flat, Real(1), t.masking);
+            const Real delta_weight = passed * delta_masking(refraction.wi, t.masking);
 
             Sample<Real> s;
             s.pdf = detail::select(is_delta, choice, t.density);
@@ -184,7 +184,9 @@ public:
 
         Albedo<Real> albedo() const
         {
-            if (!_lobe._tables) return detail::mean_weight<Real>(*this);
+            if (!_lobe._tables)
+                return {reflects() ? alone(ScatterMode::R).reflect : Color(Real(0)),
+                        transmits() ? alone(ScatterMode::T).transmit : Color(Real(0))};
 
             const Real alpha = _lobe._distribution.effective_alpha();
             const Real eta = _fresnel.relative_index().eta, mu = detail::min(_wo.z, Real(1));
@@ -222,6 +224,14 @@ public:
                 if (!transmits()) _reflected_density = _visible.reflected_density();
             if (_lobe._shadowing == TransmissionShadowing::beta && transmits())
                 _lambda_o = _lobe._distribution.lambda(_wo);
+        }
+
+        // The albedo of one of the lobes, which takes no choice and so no third random number.
+        Albedo<Real> alone(ScatterMode mode) const
+        {
+            Prepared lobe = *this;
+            lobe._lobe._mode = mode;
+            return detail::mean_weight<Real>(lobe);
         }
 
         // A lobe that only reflects may leave out the normals that reflect below the horizon.
@@ -339,6 +349,26 @@ public:
             if (_lobe._shadowing == TransmissionShadowing::correlated || !transmits())
                 return shadowing * _sigma_o;
             return beta_quotient(_lambda_o, _lobe._distribution.lambda(wi_up));
+        }
+
+        // G2 / G1(wo) of the rough lobe in the limit that it is narrow. Facets that are tilted turn
+        // wo less than the surface as a whole does: in the mean by mu / sigma_o of that, where
+        // the turn is small.
+        Real delta_masking(const Vec3<Real>& refracted, const Real& masking) const
+        {
+            const Mask rough = detail::both<Real>(_narrow, !_flat);
+            if (!detail::any<Real>(rough)) return detail::select(_flat, Real(1), masking);
+            const Real whole = detail::abs(refracted.z), mu = _wo.z;
+            const Real z = detail::min(mu + (whole - mu) * (mu / _sigma_o), Real(1));
+            const Real tangential2 = refracted.x * refracted.x + refracted.y * refracted.y;
+            const Real wanted2 = detail::max(Real(1) - z * z, Real(0));
+            const Real scale =
+                detail::sqrt(wanted2 / detail::max(tangential2, detail::constant<Real>(1e-12)));
+            const Vec3<Real> wi(refracted.x * scale, refracted.y * scale, z);
+            const Real correlated =
+                _sigma_o * z /
+                (_sigma_o * z + _lobe._distribution.projected_area(wi) * mu - mu * z);
+            return detail::select(_flat, Real(1), transmission_masking(wi, correlated / _sigma_o));
         }
 
         Dielectric _lobe;

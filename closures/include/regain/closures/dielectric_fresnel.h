@@ -110,7 +110,8 @@ private:
         const Real n = detail::max(index.eta, Real(1));
         const Real minus_one = detail::max(index.minus_one, Real(0));
         const MaskOf<Real> small = n < Real(2);
-        return detail::select(small, average_near_one(n, minus_one), average_closed(n));
+        return detail::select(small, average_near_one(n, minus_one),
+                              average_closed(detail::max(n, Real(2))));
     }
 
     static Real average_near_one(Real n, Real minus_one)

@@ -258,6 +258,7 @@ public:
             Visible visible = _distribution.visible(v);
             Real area = detail::visible_area(visible);
             Mask active = detail::both<Real>(_valid, !_flat);
+            active = detail::both<Real>(active, !passed(v, below));
             if constexpr (!leaves_at_once)
                 weight = depth.stay(-v.z, area, stream.next(), first, active);
             else
@@ -273,18 +274,30 @@ public:
                 bounces = detail::select(active, bounces + Real(1), bounces);
                 visible = _distribution.visible(v);
                 area = detail::visible_area(visible);
+                active = detail::both<Real>(active, !passed(v, below));
                 active = detail::both<Real>(active,
                                             !depth.move(-v.z, area, stream.next(), first, active));
             }
+            // What has been given up leaves along its way: see walk_limit.
+            const Mask inward = detail::both<Real>(active, v.z > Real(0));
+            v = detail::select(inward, detail::mirrored(v), v);
+            below = below != inward;
 
             WalkPath<Real> p;
             const Vec3<Real> d = detail::normalised(-v);  // what the bounces have rounded off
             p.wi = turned(detail::select(below, detail::mirrored(d), d));
             p.weight = tint(below) * weight;
             p.bounces = bounces;
-            p.escaped = !active;
+            p.escaped = Mask(true);
             p.transmitted = below;
             return p;
+        }
+
+        // Where transmission is a delta lobe the surface deflects nothing, and that it is crossed
+        // again and again at grazing angles, about 1 / mu times, changes nothing.
+        Mask passed(const Vec3<Real>& v, const Mask& below) const
+        {
+            return detail::both<Real>(detail::both<Real>(_narrow, below), v.z < Real(0));
         }
 
         // At the facet m, in the lanes `active`: v, against the ray that arrives, becomes what is

@@ -22,17 +22,19 @@
 /// what counts; it is not eval / pdf. A host that divides by the pdf itself takes weight * pdf for
 /// the value.
 ///
-/// The lobe for the rest. Where the tables know E_ss, which they do for one alpha and, to the digits
-/// needed here, no tail parameter, it is
+/// The lobe for the rest. Where the tables know E_ss, which they do for one alpha and, to the
+/// digits needed here, no tail parameter, it is
 ///   (1 - E_ss) ((1 - t) cos / pi + t 3 cos^2 / (2 pi)),  t = alpha mu_o
 /// For GGX the pdf is then within 0.02 to 0.11 of the density for alpha >= 0.25, relative rms, and
 /// within 0.3 for smaller ones. It integrates to 1 as well as the table knows E_ss: 5e-4.
 ///
 /// Otherwise the share 1 - E_ss is not known, but the density n(d) of first bounces along d that do
-/// not leave is. Carried from the sphere onto the hemisphere, by halving the angle to -z, it becomes
+/// not leave is. Carried from the sphere onto the hemisphere, by halving the angle to -z, it
+/// becomes
 ///   4 cos theta_i n(2 cos theta_i (wi_x, wi_y, -wi_z) + z)
-/// which integrates to 1 - E_ss exactly, for any distribution. This one is within 0.02 to 0.6 of the
-/// density, and 2 where a narrow n lands beside it (alpha 0.1 at grazing angles, STD of long tail).
+/// which integrates to 1 - E_ss exactly, for any distribution. This one is within 0.02 to 0.6 of
+/// the density, and 2 where a narrow n lands beside it (alpha 0.1 at grazing angles, STD of long
+/// tail).
 
 #pragma once
 
@@ -182,8 +184,9 @@ public:
         Depth start() const { return Depth(_wo.z, _visible.projected_area()); }
 
         // From wo to where the walk leaves; or, if it may not leave at the first bounce, with that
-        // taken off its weight, which halves the variance of eval. join(v, sigma(v), weight, depth) is called at each facet but the
-        // first, before it scatters; v points against the ray that arrives.
+        // taken off its weight, which halves the variance of eval. join(v, sigma(v), weight, depth)
+        // is called at each facet but the first, before it scatters; v points against the ray that
+        // arrives.
         template <bool leaves_at_once, class Join>
         WalkPath<Real> trace(const Vec3<Real>& u, const Join& join) const
         {

@@ -110,6 +110,7 @@ private:
         const Real n = detail::max(index.eta, Real(1));
         const Real minus_one = detail::max(index.minus_one, Real(0));
         const MaskOf<Real> small = n < Real(2);
+        // The closed form has no value at 1, and raises an exception there.
         return detail::select(small, average_near_one(n, minus_one),
                               average_closed(detail::max(n, Real(2))));
     }

@@ -26,7 +26,7 @@
 ///
 /// L_o is looked up in DielectricTables of the distribution and form of shadowing. Tints multiply
 /// the lobes once. A lobe of mode R or T gets its own part of both. Building a closure asks the
-/// tables 66 times; per point and direction it is one look-up.
+/// tables 102 times; per point and direction it is one look-up.
 
 #pragma once
 
@@ -250,7 +250,7 @@ public:
     Albedo<Real> albedo(const Vec3<Real>& wo) const { return prepare(wo).albedo(); }
 
 private:
-    using Missing = MissingEnergy<Real, 3, 10>;
+    using Missing = MissingEnergy<Real, 3, 16>;
 
     // 1 - E^S at mu in [0, 1], seen from where eta is the index ahead over the index behind.
     Real loss(Real eta, Real mu) const
@@ -317,9 +317,11 @@ public:
         {}
 
     private:
+        // A sample of the lobe is worth about 1 or nothing, so its second moment is its albedo. In
+        // proportion to albedos the largest weight would be 1 / E^S, 7 where this has 3.
         Prepared(const DielectricKullaConty& closure, const typename Lobe::Prepared& lobe,
                  const typename Added::Prepared& added)
-            : Mixture::Prepared(lobe, added, closure._likely * (Real(1) - added.loss()),
+            : Mixture::Prepared(lobe, added, closure._likely * detail::sqrt(Real(1) - added.loss()),
                                 total(added.albedo().reflect) + total(added.albedo().transmit))
         {}
     };

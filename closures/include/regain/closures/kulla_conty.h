@@ -19,7 +19,7 @@
 /// The lobe and the added lobe make one closure: hosts see one eval, one pdf and weights that are
 /// their quotient. The added lobe is sampled by missing_energy.h.
 ///
-/// Building one asks the table of E_ss 16 times; it is meant to be built once per material, or once
+/// Building one asks the table of E_ss 28 times; it is meant to be built once per material, or once
 /// per shading point where alpha is textured. Per shading point and per direction the cost is one
 /// look-up.
 

@@ -7,13 +7,18 @@
 ///
 ///   p(mu) = (1 - E(mu)) mu / int_0^1 (1 - E) mu' dmu'
 ///
-/// Cosines are placed by s = ln(1 + t / alpha) / ln(1 + l / alpha), t = mu, l = 1, which follows
-/// the loss from mu ~ alpha, where it is largest for every alpha, over the decades up to mu = 1,
-/// where a distribution with a long tail loses most. Inside a dielectric there is a second such
-/// place, the critical cosine; three pieces then run from 0 up, from there down and from there up,
-/// each with t the distance from its start. The density is linear in s between equal steps, so it
-/// is inverted in closed form and known exactly. A cosine-weighted density in its place would give
-/// weights of over a hundred at small alpha; this one stays within 1.4 of (1 - E) mu.
+/// Cosines are placed by
+///
+///   t = mu / (r + sqrt(r^2 - mu^2)),  r^2 = 1.01,    s = ln(1 + t / a) / ln(1 + l / a)
+///
+/// t is half of mu at grazing angles, and all but linear in theta near the normal, where the loss
+/// of distributions with a long tail is linear in theta, too. s, with a = alpha / (2 r) and l =
+/// t(1), follows the loss from mu ~ alpha, where it is largest for every alpha, over the decades up
+/// to mu = 1. Inside a dielectric there is a second such place, the critical cosine; three pieces
+/// then run from 0 up, from there down and from there up, each with the distance from its start for
+/// t. The density is linear in s between equal steps, so it is inverted in closed form and known
+/// exactly. A cosine-weighted density in its place would give weights of over a hundred at small
+/// alpha; this one stays within 1.5 of (1 - E) mu.
 
 #pragma once
 
@@ -22,7 +27,7 @@
 REGAIN_NAMESPACE_BEGIN
 
 /// `pieces` is 1, or 3 where there may be a critical cosine; `cells` steps to a piece.
-template <class RealType, int pieces = 1, int cells = 16>
+template <class RealType, int pieces = 1, int cells = 28>
 class MissingEnergy
 {
 public:
@@ -35,19 +40,20 @@ public:
     /// loss(mu) = 1 - E(mu) in [0, 1] for mu in [0, 1]; it is asked `pieces` * (`cells` + 1) times.
     /// alpha in (0, 1]. critical in [0, 1) is the critical cosine, 0 where there is none.
     template <class Loss>
-    MissingEnergy(Real alpha, const Loss& loss, Real critical = Real(0)) : _alpha(alpha)
+    MissingEnergy(Real alpha, const Loss& loss, Real critical = Real(0))
+        : _width(alpha * detail::constant<Real>(0.5 / radius))
     {
         const Real none(0);
         _critical = pieces == 1 ? none
                                 : detail::select(critical > detail::constant<Real>(least_critical),
-                                                 critical, none);
+                                                 along(critical).t, none);
         const Real half = Real(0.5f) * _critical;
         if constexpr (pieces == 3)
         {
             _piece[0] = {none, Real(1), half};
             _piece[1] = {_critical, Real(-1), half};
         }
-        _piece[pieces - 1] = {_critical, Real(1), Real(1) - _critical};
+        _piece[pieces - 1] = {_critical, Real(1), along(Real(1)).t - _critical};
 
         Real mass(0), corrected(0);
         for (Piece& piece : _piece) measure(piece, loss, mass, corrected);
@@ -79,29 +85,39 @@ public:
     Real density(Real mu) const
     {
         using Number = NumberTraits<Real>;
+        const Place place = along(mu);
         const Piece& last = _piece[pieces - 1];
         Real start = last.start, sign(1), inv_range = last.inv_log_range;
         MaskOf<Real> first(false), second(false);
         if constexpr (pieces == 3)
         {
-            second = mu < _critical;
-            first = mu < Real(0.5f) * _critical;
+            second = place.t < _critical;
+            first = place.t < Real(0.5f) * _critical;
             start = detail::select(first, Real(0), _critical);
             sign = detail::select(second & !first, Real(-1), Real(1));
             inv_range = detail::select(second, _piece[0].inv_log_range, inv_range);
         }
-        const Real distance = detail::max((mu - start) * sign, Real(0));
-        const Real s = detail::log1p(distance / _alpha) * inv_range * Real(float(cells));
-        const Real cell = Number::to_real(Number::at_most(Number::truncate(s), cells - 1));
+        const Real distance = detail::max((place.t - start) * sign, Real(0));
+        const Real s = detail::log1p(distance / _width) * inv_range * Real(float(cells));
+        const auto index = Number::at_most(Number::truncate(s), cells - 1);
+        const Real cell = Number::to_real(index);
         Real low(0), high(0);
-        for (int i = 0; i < cells; ++i)
+        if constexpr (std::is_floating_point_v<Real>)
         {
-            const MaskOf<Real> reached = cell >= Real(float(i));
-            low = detail::select(reached, node(first, second, i), low);
-            high = detail::select(reached, node(first, second, i + 1), high);
+            const Piece& piece = _piece[pieces == 1 || first ? 0 : second ? 1 : pieces - 1];
+            low = piece.node[index];
+            high = piece.node[index + 1];
         }
+        else
+            for (int i = 0; i < cells; ++i)
+            {
+                const MaskOf<Real> reached = cell >= Real(float(i));
+                low = detail::select(reached, node(first, second, i), low);
+                high = detail::select(reached, node(first, second, i + 1), high);
+            }
         const Real fraction = detail::min(s - cell, Real(1));
-        return (low + (high - low) * fraction) * inv_range / (_alpha + distance);
+        return (low + (high - low) * fraction) * inv_range /
+               ((_width + distance) * place.derivative);
     }
 
     /// A cosine in (0, 1] for u in [0, 1].
@@ -133,11 +149,13 @@ public:
         const Real discriminant = low * low + Real(2) * (high - low) * part;
         const Real x = Real(2) * part / (low + detail::sqrt(detail::max(discriminant, Real(0))));
         const Real s = (cell + detail::saturate(x)) * detail::constant<Real>(1.0 / cells);
-        const Real mu = start + sign * _alpha * detail::expm1(s * range);
+        const Real mu = cosine(start + sign * _width * detail::expm1(s * range));
         return detail::max(detail::min(mu, Real(1)), detail::constant<Real>(2 * detail::horizon));
     }
 
 private:
+    static constexpr double radius = 1.00498756211208895;  // r
+
     // Share of the mass, below which no node's density falls; pieces too short to matter, and
     // critical cosines too low to.
     static constexpr double least_density = 0.02, least_length = 1e-6, least_critical = 2e-3;
@@ -155,21 +173,42 @@ private:
     void measure(Piece& piece, const Loss& loss, Real& mass, Real& integral) const
     {
         const bool vanishes = pieces == 1;  // like mu^2 at its start
-        piece.log_range = detail::log1p(piece.length / _alpha);
+        piece.log_range = detail::log1p(piece.length / _width);
         piece.inv_log_range = Real(1) / detail::max(piece.log_range, detail::constant<Real>(1e-12));
-        // From node to node alpha + t grows by a factor.
+        // From node to node width + distance grows by a factor.
         const Real step = detail::exp(piece.log_range * detail::constant<Real>(1.0 / cells));
-        Real shifted = _alpha;
+        Real shifted = _width;
         for (int i = 0; i <= cells; ++i, shifted *= step)
         {
             if (i == 0 && vanishes) continue;
-            const Real t = detail::min(detail::max(shifted - _alpha, Real(0)), piece.length);
-            const Real mu = detail::saturate(piece.start + piece.sign * t);
-            piece.node[i] = loss(mu) * mu * shifted * piece.log_range;
+            const Real distance = detail::min(detail::max(shifted - _width, Real(0)), piece.length);
+            const Real t = piece.start + piece.sign * distance;
+            const Real mu = detail::saturate(cosine(t));
+            piece.node[i] = loss(mu) * mu * shifted * piece.log_range * derivative(t);
             mass += piece.node[i] * detail::constant<Real>((i % cells ? 1.0 : 0.5) / cells);
             const double weight = gregory(cells - i) * (vanishes ? 1 : gregory(i));
             integral += piece.node[i] * detail::constant<Real>(weight / cells);
         }
+    }
+    // t of a cosine and dmu/dt there, and the ways back.
+    struct Place
+    {
+        Real t, derivative;
+    };
+    static Place along(Real mu)
+    {
+        const Real r = detail::constant<Real>(radius);
+        const Real c = detail::sqrt(detail::constant<Real>(radius * radius) - mu * mu);
+        return {mu / (r + c), c * (r + c) * detail::constant<Real>(1 / radius)};
+    }
+    static Real cosine(Real t)
+    {
+        return detail::constant<Real>(2 * radius) * t / (Real(1) + t * t);
+    }
+    static Real derivative(Real t)
+    {
+        const Real t2 = t * t, inv = Real(1) / (Real(1) + t2);
+        return detail::constant<Real>(2 * radius) * (Real(1) - t2) * inv * inv;
     }
     static constexpr double gregory(int from_end)
     {
@@ -191,7 +230,9 @@ private:
                                   detail::select(second, _piece[1].node[i], _piece[2].node[i]));
     }
 
-    Real _alpha, _critical, _average;
+    Real _width;     // a
+    Real _critical;  // t of the critical cosine
+    Real _average;
     Piece _piece[pieces];
 };
 

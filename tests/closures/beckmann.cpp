@@ -23,7 +23,7 @@ namespace {
 using Batch = xsimd::batch<float>;
 
 // exp(x^2) erfc(x) times sqrt(pi) x, subtracted from 1, in long double: the text-book formula where
-// it is good, the continued fraction DLMF 7.9.2 to its end elsewhere.
+// it is good, the continued fraction DLMF 7.9 to its end elsewhere.
 long double deficit(long double x)
 {
     if (x < 2) return 1 - std::sqrt(std::acos(-1.0L)) * x * std::exp(x * x) * std::erfc(x);

@@ -6,7 +6,7 @@
 /// and shadowing.
 ///
 ///   D(m)     = exp(-((mx/ax)^2 + (my/ay)^2) / mz^2) / (pi ax ay mz^4)
-///              Beckmann and Spizzichino 1963; Walter et al. 2007, Eq. 25; Heitz 2014, Eq. 80
+///              Beckmann and Spizzichino 1963; Walter et al. 2007, Eq. 25
 ///   sigma(w) = (c + c erf(c / s) + s exp(-c^2 / s^2) / sqrt(pi)) / 2,  c = w.z,
 ///              s = |(ax wx, ay wy)|: Walter et al. 2007, Eq. 26 (smith G1 = c / sigma)
 ///
@@ -129,7 +129,7 @@ constexpr int slope_steps = 12;
 template <class Real>
 bool slope_found(const Real& last_step, const Real& height)
 {
-    const Real small = constant<Real>(sizeof(ScalarOf<Real>) == 4 ? 3e-3 : 3e-6);
+    const Real small = constant<Real>(sizeof(ScalarOf<Real>) == 4 ? 6e-3 : 3e-6);
     return all<Real>(abs(last_step) <= small * min(height, Real(1)));
 }
 

@@ -9,7 +9,7 @@
 ///                    = exp(-x^2) erfcx_deficit(x) / sqrt(pi)
 ///
 /// for x >= 0, all digits but two or so of the number type. Far out both come from the continued
-/// fraction of erfc (DLMF 7.9.2), in which nothing is subtracted.
+/// fraction of erfc (DLMF 7.9), in which nothing is subtracted.
 
 #pragma once
 

@@ -109,6 +109,11 @@ private:
     {
         return added(closure.lobe());
     }
+    template <class Lobe>
+    GainAnswer gain_of(const DielectricKullaConty<Lobe>& closure) const
+    {
+        return added(closure.lobe());
+    }
     template <class First, class Second>
     GainAnswer gain_of(const Sum<First, Second>& closure) const
     {

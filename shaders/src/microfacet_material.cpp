@@ -95,11 +95,15 @@ void MicrofacetMaterial::bind_tables(bool for_albedo)
     if (interface)
     {
         const bool walks = !interface->thin_walled && interface->mode == ScatterMode::RT;
+        const bool adds = std::holds_alternative<KullaContyForm>(method);
         if (is_walk && !walks)
             refuse("takes a dielectric of scatter mode RT that is not thin-walled");
-        if (!is_walk && !(gain && DielectricGain<double>::supports(*gain)))
-            refuse(std::string("does not go with dielectrics; accepted: none, normalise, turquin") +
-                   (walks ? ", walk" : ""));
+        if (interface->thin_walled && adds)
+            refuse("does not go with thin-walled dielectrics; accepted: none, normalise, turquin");
+        if (!is_walk && !adds && !(gain && DielectricGain<double>::supports(*gain)))
+            refuse(
+                "does not go with dielectrics; accepted: none, normalise, turquin, kulla-conty, "
+                "kulla-conty-series, walk");
     }
     _tables = {};
     _interface_tables = {};
@@ -108,7 +112,8 @@ void MicrofacetMaterial::bind_tables(bool for_albedo)
     // Those of GGX mirrors cost nothing; others are files.
     if (!gains && !for_albedo && distribution != DistributionKind::ggx) return;
     const std::string names(name(distribution));
-    if (!interface || interface->thin_walled || interface->mode == ScatterMode::R)
+    if (!interface || interface->thin_walled ||
+        (interface->mode == ScatterMode::R && !std::holds_alternative<KullaContyForm>(method)))
         _tables = luts::microfacet_tables(names);
     else if (gains || (for_albedo && !is_walk))
         _interface_tables = luts::dielectric_tables(names, interface->shadowing, gamma);

@@ -14,6 +14,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 using namespace regain;
 using namespace regain::tests;
 
@@ -495,10 +497,12 @@ void expect_hosts_agree(const Closure& closure, bool estimated = false)
         ++valid;
         // Between grazing directions float has few digits.
         if (std::abs(V[i].z) < 0.05f || std::abs(g.L[i].z) < 0.05f) continue;
+        // A walk goes where its pdf has nothing, and its value is there or not.
+        if (estimated && std::min({g.fwd[i], g.rev[i], e.fwd[i], back.fwd[i]}) < 1e-6f) continue;
         EXPECT_NEAR(g.fwd[i] / e.fwd[i], 1, 5e-3);
         EXPECT_NEAR(back.rev[i] / g.fwd[i], 1, 5e-3);
         EXPECT_NEAR(back.fwd[i] / g.rev[i], 1, 5e-3);
-        if (!estimated) EXPECT_NEAR(g.total[i].x / e.total[i].x, 1, 5e-3);
+        EXPECT_TRUE(estimated || std::abs(g.total[i].x / e.total[i].x - 1) < 5e-3f);
 
         ASSERT_EQ(point_host.lobes(V[i]), 1);
         const auto& f = point_host.list[0];
@@ -510,7 +514,7 @@ void expect_hosts_agree(const Closure& closure, bool estimated = false)
         const float pdf = f.lobe->evaluate(local(V[i]), local(g.L[i]), weight, &reverse);
         EXPECT_NEAR(pdf / e.fwd[i], 1, 1e-3);
         EXPECT_NEAR(reverse / e.rev[i], 1, 1e-3);
-        if (!estimated) EXPECT_NEAR(weight.x * pdf / e.total[i].x, 1, 1e-3);
+        EXPECT_TRUE(estimated || std::abs(weight.x * pdf / e.total[i].x - 1) < 1e-3f);
     }
     EXPECT_GT(valid, n / 4);
 }

@@ -106,7 +106,7 @@ TEST(query_refusals, what_belongs_to_another_closure)
 TEST(query_refusals, combinations_that_the_library_has_not)
 {
     for (const char* method :
-         {"turquin-eq12", "turquin-eq13", "turquin-eq14", "series", "kulla-conty", "burley-sheen"})
+         {"turquin-eq12", "turquin-eq13", "turquin-eq14", "series", "burley-sheen"})
         check({{glass(), "method", method, {method, "does not go with dielectrics", "walk"}}});
     for (const char* method : {"turquin", "kulla-conty", "walk"})
         check({{sheen(), "method", method, {method, "does not go with sheen", "none"}}});

@@ -156,6 +156,10 @@ bool is_delta(const Closure& closure)
         return false;
 }
 
+/// The density that hosts are told where a pdf that is not exact is 0 and the value is not: they
+/// divide by it.
+constexpr double least_pdf = 1e-12;
+
 /// The closure for a path that carries importance: what eval and sample say is then what the eye
 /// sees from wi. A gain that is not reciprocal is taken at the other end; all else is reciprocal.
 template <class Closure>

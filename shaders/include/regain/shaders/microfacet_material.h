@@ -23,6 +23,7 @@
 #include <regain/closures/beckmann.h>
 #include <regain/closures/conductor_fresnel.h>
 #include <regain/closures/dielectric_gain.h>
+#include <regain/closures/dielectric_kulla_conty.h>
 #include <regain/closures/dielectric_walk.h>
 #include <regain/closures/ggx.h>
 #include <regain/closures/gtr.h>
@@ -124,10 +125,10 @@ public:
 
     bool is_interface() const { return std::holds_alternative<InterfaceSurface>(surface); }
 
-    /// Looks up the tables that the closure needs; call it again after a change. `for_albedo`: those,
-    /// too, without which nothing is wrong but albedo() integrates. Throws std::invalid_argument,
-    /// which says what is wrong and what there is, where the library has no such combination, and
-    /// std::runtime_error where a table is missing.
+    /// Looks up the tables that the closure needs; call it again after a change. `for_albedo`:
+    /// those, too, without which nothing is wrong but albedo() integrates. Throws
+    /// std::invalid_argument, which says what is wrong and what there is, where the library has no
+    /// such combination, and std::runtime_error where a table is missing.
     REGAIN_SHADERS_API void bind_tables(bool for_albedo = false);
 
     /// visit(closure); strength of the compensation in [0, 1]. Visit answers one type.
@@ -168,9 +169,10 @@ public:
                                          gain_method(), _tables, strength));
             if (const auto* walk = random_walk(strength))
                 return visit(DielectricWalk(d, eta, tint, tint, walk->eval_samples));
-            return visit(compensated(
-                Dielectric(d, eta, i->mode, tint, tint, i->shadowing, _interface_tables),
-                gain_method(), _interface_tables, _tables, strength));
+            const Dielectric lobe(d, eta, i->mode, tint, tint, i->shadowing, _interface_tables);
+            if (std::holds_alternative<KullaContyForm>(method))
+                return visit(kulla_conty(lobe, _interface_tables, strength));
+            return visit(compensated(lobe, gain_method(), _interface_tables, _tables, strength));
         }
         if (const auto* c = std::get_if<ConductorSurface>(&surface))
             return with_reflection(

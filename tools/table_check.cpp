@@ -155,6 +155,7 @@ TableCheck check_spots(const std::string& name, const TableView& shipped,
         double exact = luts::exact_value(name, at, shipped.depth > 1 ? 32 : 64);
         double value = luts::interpolated(shipped, at);
         if (logarithm) exact = std::exp(exact), value = std::exp(value);
+        if (tolerance.relative && exact < luts::smallest_promised(name)) continue;
         if (tolerance.relative) value = std::min(value, 1.0);  // as look-ups are
         const double off = std::abs(tolerance.relative ? value / exact - 1 : value - exact);
         const std::string place =

@@ -112,7 +112,9 @@ public:
                     if (lattice.is_used(i, j, k) &&
                         definition.family.promised(coordinate(i, lattice.width),
                                                    coordinate(j, lattice.height),
-                                                   coordinate(k, lattice.depth)))
+                                                   coordinate(k, lattice.depth)) &&
+                        !(quantity(exact(i, j, k)) < definition.smallest_promised &&
+                          definition.fitted))
                         _checks.push_back(check(i, j, k));
     }
 
@@ -183,6 +185,8 @@ private:
     {
         return _definition.value(_lattice.values[_lattice.at(i, j, k)]);
     }
+
+    double quantity(double value) const { return _logarithmic ? std::exp(value) : value; }
 
     Check check(int i, int j, int k)
     {
@@ -286,6 +290,8 @@ bool is_error_promised(const std::string& name, const TablePoint& at)
 {
     return Definition::of(name).family.promised(at.x, at.y, at.z);
 }
+
+double smallest_promised(const std::string& name) { return Definition::of(name).smallest_promised; }
 
 bool is_logarithmic(const std::string& name) { return Definition::of(name).info.transform == "ln"; }
 

@@ -313,11 +313,12 @@ Definition Definition::of(const std::string& name)
                 d.check_accuracy = 18;
                 info.nodes = d.node_accuracy;
                 d.rounding = Rounding::half;
-                info.scale = share ? 0x1p-15 : 0x1p-16;
-                info.offset = share ? -1 : 0x1p-16;
+                info.scale = share ? 0x1p-14 : 0x1p-16;
+                info.offset = share ? -2 : 0x1p-16;
                 if (beta && !share)
                 {
                     info.transform = "ln";
+                    d.smallest_promised = 0.1;
                     d.rounding = Rounding::stored;
                     info.scale = 0x1p-12;
                     info.offset = -65535 * info.scale;

@@ -49,6 +49,7 @@ struct Definition
     int width, height, depth;
     bool fitted;             // levelled for the least largest relative error; else exact
     double lowest, highest;  // that a node can be
+    double smallest_promised = 0;  // no error is promised of a quantity below this
     int node_accuracy, check_accuracy;
     // What nodes are rounded to for a small file.
     enum class Rounding { none, half, stored } rounding = Rounding::none;

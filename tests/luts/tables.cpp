@@ -207,6 +207,7 @@ TEST(Tables, files_match_their_definition)
             double exact = luts::exact_value(name, at, solid ? 24 : 32);
             double found = luts::interpolated(table.view(), at);
             if (luts::is_logarithmic(name)) exact = std::exp(exact), found = std::exp(found);
+            if (relative && exact < luts::smallest_promised(name)) continue;
             worst = std::max(worst,
                              std::abs(relative ? std::min(found, 1.0) / exact - 1 : found - exact));
         }

@@ -87,6 +87,21 @@ TEST_F(BakeCommand, spots_of_all_tables_are_quick)
     EXPECT_EQ(o.json()[0]["numbers"], 10);
 }
 
+TEST_F(BakeCommand, verify_finds_the_files_of_tables_that_are_not_compiled_in)
+{
+    const auto o =
+        run("bake --verify beckmann_E_avg gtr_E_ss ggx_E_S_correlated_inside --spot 5 --json");
+    EXPECT_EQ(o.code, 0) << o.err;
+    const json report = o.json();
+    ASSERT_EQ(report.size(), 3u);
+    for (const json& check : report)
+    {
+        EXPECT_TRUE(check["passed"]) << check;
+        EXPECT_TRUE(says(check["against"].get<std::string>(), ".exr"));
+        EXPECT_EQ(check["numbers"], 5);
+    }
+}
+
 TEST_F(BakeCommand, a_corrupt_file_is_bad_input)
 {
     write("broken.exr", "no picture");
@@ -128,7 +143,12 @@ TEST_F(BakeCommand, wrong_arguments_are_bad_input)
 {
     for (const auto& [arguments, part] : std::vector<std::pair<std::string, std::string>>{
              {"", "nothing to do"},
-             {"ggx_E_sss -o FOLDER", "accepted: ggx_E_ss, ggx_E_avg"},
+             {"ggx_E_sss -o FOLDER", "no table is called 'ggx_E_sss'"},
+             {"gtr_0_E_S_beta_inside -o FOLDER", "its gamma is not within"},
+             {"--gamma 2 -o FOLDER", "--gamma belongs to --distribution"},
+             {"--distribution ggx --gamma 2 -o FOLDER", "ggx has no gamma"},
+             {"--distribution phong -o FOLDER", "phong"},
+             {"--verify gtr_1.3_E_S_beta_inside", "there is no file of the table"},
              {"-o FOLDER --spot 3", "--spot belongs to --verify"},
              {"--verify -o FOLDER", "--verify writes nothing"},
              {"--verify --spot 0", "spot"},

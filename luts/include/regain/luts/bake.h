@@ -71,6 +71,10 @@ REGAIN_LUTS_API double exact_value(const std::string& name, const TablePoint& at
 /// mu 7e-4 on, dielectrics from mu 0.018 on, anything else everywhere.
 REGAIN_LUTS_API bool is_error_promised(const std::string& name, const TablePoint& at);
 
+/// No error is promised where the quantity itself is below this: 0.1 of E_S in the beta form, which
+/// falls to nothing at grazing angles.
+REGAIN_LUTS_API double smallest_promised(const std::string& name);
+
 /// Whether the table of that name holds natural logarithms.
 REGAIN_LUTS_API bool is_logarithmic(const std::string& name);
 

@@ -27,7 +27,7 @@ struct FacetPaths
 {
     double facing = 0;  ///< wo.m
     double refracted_cosine = 0;
-    Vec3<double> reflected, refracted;
+    Vec3<double> reflected{0.0}, refracted{0.0};
     double reflected_jacobian = 0, refracted_jacobian = 0;  ///< dwi / dm; 0 where impossible
 };
 

@@ -140,11 +140,15 @@ public:
                                   : regain::detail::critical_cosine_coordinate(mu, alpha, eta_o);
                     (at < x ? low : high) = mu;
                 }
-                const auto E = textbook_albedo(0.5 * (low + high), alpha, eta_o, beta);
+                const double mu = 0.5 * (low + high);
+                const auto E = textbook_albedo(mu, alpha, eta_o, beta);
+                const double share =
+                    E.x / (E.x + E.y) - regain::detail::fresnel_weight(alpha, eta_o) *
+                                            DielectricFresnel<double>(eta_o).reflectance(mu);
                 for (int k = 0; k < 4; ++k)
                 {
                     _E[side][k * width + i] = stored(E.x + E.y);
-                    _R[side][k * width + i] = stored(E.x / (E.x + E.y));
+                    _R[side][k * width + i] = stored(0.5 * (share + 1));
                 }
             }
         }
@@ -156,7 +160,7 @@ public:
         for (int side = 0; side < 2; ++side)
         {
             t.E[side] = {_E[side], width, 2, 2};
-            t.R[side] = {_R[side], width, 2, 2};
+            t.R[side] = {_R[side], width, 2, 2, -1.0f, 2.0f / 65535};
         }
         return t;
     }

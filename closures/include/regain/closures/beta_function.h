@@ -5,7 +5,7 @@
 /// The beta function B(1 + a, 1 + b) of numbers a, b >= 0: the joint masking and shadowing of a
 /// rough interface for light that passes through it,
 ///
-///   G2(wo, wi) = B(1 + Lambda_o, 1 + Lambda_i)                       Heitz et al. 2016, Eq. 37
+///   G2(wo, wi) = B(1 + Lambda_o, 1 + Lambda_i)                       Heitz et al. 2016, rough dielectrics
 ///
 /// By Lanczos' approximation, Gamma(z) = (z + g - 1/2)^(z - 1/2) e^-(z + g - 1/2) L(z) with L of
 /// positive coefficients (Lanczos 1964; the ones here are Boost.Math's lanczos6m24 and

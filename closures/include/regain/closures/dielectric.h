@@ -17,7 +17,7 @@
 ///
 /// Two forms of G2 exist for transmission. `correlated` is 1 / (1 + Lambda_o + Lambda_i), as for
 /// reflection. `beta`, B(1 + Lambda_o, 1 + Lambda_i), is what the Smith model means by passing in
-/// from one side and out to the other (Heitz et al. 2016, Eq. 37), and far lower at grazing angles.
+/// from one side and out to the other (Heitz et al. 2016), and far lower at grazing angles.
 ///
 /// Delta lobes. Of a flat surface (the distribution's delta limit) both lobes are. The transmitted
 /// directions spread over |eta - 1| alpha; at or below delta_width of that, light passes along the
@@ -100,7 +100,9 @@ public:
     {
         const Real alpha = detail::max(_distribution.alpha_x(), _distribution.alpha_y());
         const Real width = detail::abs(_eta.minus_one) / detail::max(_eta.eta, Real(1)) * alpha;
-        return _distribution.is_delta() | (width <= detail::constant<Real>(delta_width));
+        const Mask flat = _distribution.is_delta(),
+                   narrow = width <= detail::constant<Real>(delta_width);
+        return flat | narrow;
     }
 
     Traits traits() const
@@ -298,9 +300,14 @@ public:
             const Mask known = length2 > detail::constant<Real>(1e-20);
             h = detail::select(known, h, up);
             length2 = detail::select(known, length2, Real(1));
-            t.valid = detail::both<Real>(
-                possible & known, (Mask(reflects()) & !_flat & is_reflection(_wo, wi, h)) |
-                                      (Mask(transmits()) & !_narrow & is_transmission(_wo, wi, h)));
+            Mask joined(false);
+            if (reflects()) joined = detail::both<Real>(is_reflection(_wo, wi, h), !_flat);
+            if (transmits())
+            {
+                const Mask through = detail::both<Real>(is_transmission(_wo, wi, h), !_narrow);
+                joined = joined | through;
+            }
+            t.valid = detail::both<Real>(possible & known, joined);
 
             // Cosines about the facet; of the unit half-vector wo.h is half the length of the sum.
             const Real length = detail::sqrt(length2), inv = Real(1) / length;

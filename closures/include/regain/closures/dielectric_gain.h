@@ -75,7 +75,9 @@ public:
                 : _tables.albedo(_axes.alpha(), detail::select(below, _index[1].eta, _index[0].eta),
                                  mu);
         const Real s = detail::select(below, _strength[1], _strength[0]);
-        return Color(Real(1) + s * ((Real(1) - E) / E));
+        // At grazing angles the beta form of shadowing lets next to nothing pass the first time.
+        const Real some = detail::max(E, detail::constant<Real>(1e-12));
+        return Color(Real(1) + s * ((Real(1) - E) / some));
     }
 
     /// At full strength all light of an isotropic interface that is not tinted leaves it.

@@ -139,7 +139,9 @@ Vec3<Real> refraction_half_vector(const Vec3<Real>& wo, const Vec3<Real>& wi,
 template <class Real>
 MaskOf<Real> same_sign(Real a, Real b)
 {
-    return both<Real>(a > Real(0), b > Real(0)) | both<Real>(a < Real(0), b < Real(0));
+    const MaskOf<Real> up = both<Real>(a > Real(0), b > Real(0)),
+                       down = both<Real>(a < Real(0), b < Real(0));
+    return up | down;
 }
 
 /// A unit direction on either side of the surface. All of NaN, infinity, zero and the horizon give

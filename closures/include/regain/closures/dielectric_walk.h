@@ -25,7 +25,8 @@
 /// The share n e is where it is. What is lost, n (1 - e), goes to either side by shares that were
 /// fitted: reflected light, and refracted light that comes back, is carried from the sphere of
 /// directions onto the hemisphere as in walk.h; refracted light that stays refracted keeps its
-/// direction, mirrored where that points to the surface. So the pdf integrates to 1, for any
+/// direction, mirrored where that points to the surface. A fiftieth is a cosine lobe on either
+/// side. So the pdf integrates to 1, for any
 /// distribution and index.
 ///
 /// Both lobes only: what a walk would be that may only reflect, or only refract, is not defined,
@@ -124,7 +125,7 @@ public:
             Real sum(0);
             const auto join = [&](const Vec3<Real>& v, const Real& area, const Mask& below,
                                   const Real& throughput, const Depth& depth, const Real& first) {
-                const Mask reflects = below == beyond;
+                const Mask reflects = !detail::differ<Real>(below, beyond);
                 const RelativeIndex<Real> index = detail::select(below, _behind, _ahead);
                 Real value(0);
                 if (detail::any<Real>(reflects))
@@ -154,10 +155,10 @@ public:
             s.weight = detail::select(s.valid, p.weight, Color(Real(0)));
             const auto F = DielectricFresnel<Real>(_ahead).split(_wo.z);
             const Real choice = detail::select(s.transmitted, F.transmittance, F.reflectance);
-            const Real least = detail::constant<Real>(1e-12);
+            // One that cannot be, by the mean surface, may have been by a facet.
+            const Real delta_pdf = detail::max(choice, detail::constant<Real>(1e-12));
             s.pdf = detail::select(
-                s.valid, detail::max(detail::select(s.delta, choice, density(safe(s.wi))), least),
-                Real(0));
+                s.valid, detail::select(s.delta, delta_pdf, density(turned(s.wi))), Real(0));
             return s;
         }
 
@@ -281,7 +282,7 @@ public:
             // What has been given up leaves along its way: see walk_limit.
             const Mask inward = detail::both<Real>(active, v.z > Real(0));
             v = detail::select(inward, detail::mirrored(v), v);
-            below = below != inward;
+            below = detail::differ<Real>(below, inward);
 
             WalkPath<Real> p;
             const Vec3<Real> d = detail::normalised(-v);  // what the bounces have rounded off
@@ -321,7 +322,7 @@ public:
             v = detail::select(passes, -detail::mirrored(refraction.wi),
                                detail::select(active, reflected, v));
             depth.cross(first, passes);
-            below = below != passes;
+            below = detail::differ<Real>(below, passes);
         }
 
         // Near the density of sample, per steradian; wi on the side of wo.
@@ -353,7 +354,9 @@ public:
                                      carried * lost_R * _R_to_T;
                 value = detail::select(beyond, through, value);
             }
-            return value / _visible.projected_area();
+            // Some of it everywhere: no facet that wo sees need lead to where a walk can.
+            return Real(0.98f) * value / _visible.projected_area() +
+                   up.z * detail::constant<Real>(0.02 * 0.159154943091895336);
         }
         Real leaves(const Real& z, const Real& area_i) const
         {

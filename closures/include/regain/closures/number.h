@@ -180,6 +180,14 @@ MaskOf<Real> both(const MaskOf<Real>& a, const MaskOf<Real>& b)
     return NumberTraits<Real>::both(a, b);
 }
 
+/// One mask holds and the other does not. The operators == and != of vectors' masks may compare
+/// lanes as numbers, and one that is true is a NaN.
+template <class Real>
+MaskOf<Real> differ(const MaskOf<Real>& a, const MaskOf<Real>& b)
+{
+    return both<Real>(a, !b) | both<Real>(!a, b);
+}
+
 /// Every lane, some lane.
 template <class Real>
 bool all(const MaskOf<Real>& mask)

@@ -83,8 +83,8 @@ private:
         // across, as one axis of a polar pair (Bailey 1994).
         const Real c = _cotangent;
         const Mask plain = u.x < _plain;
-        const Real number =
-            select(plain, u.x, u.x - _plain) / select(plain, _plain, Real(1) - _plain);
+        const Real number = select(plain, u.x, u.x - _plain) /
+                            max(select(plain, _plain, Real(1) - _plain), constant<Real>(1e-30));
         const Real square = power_minus_one(number, select(plain, _p, _beyond));
         const Real length = sqrt(square), angle = angle_of(u.y);
         const Real side = sin(angle);

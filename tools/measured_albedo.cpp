@@ -81,8 +81,8 @@ MeasuredAlbedo by_quadrature(AnyClosure& closure, const ClosureSpec& spec, const
             up, ax, ay, nodes, [&](const Imath::V3d& wi) { return eval(below ? wi : turned(wi)); });
         return albedo;
     }
-    const InterfaceIntegral both = integrate_interface(wo, spec.interface.eta, ax, ay,
-                                                       std::max(nodes, coarse_nodes), eval);
+    const InterfaceIntegral both =
+        integrate_interface(wo, spec.interface.eta, ax, ay, std::max(nodes, coarse_nodes), eval);
     albedo.reflect += both.reflected;
     albedo.transmit += both.transmitted;
     return albedo;

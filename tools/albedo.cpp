@@ -18,22 +18,28 @@ constexpr const char* help_footer = R"help(
 The albedo is the part of the light that leaves: over all directions, for light along one whose
 cosine is mu; and on average, 2 int E(mu) mu dmu. It is measured on the closure's eval
 (quadrature) or sample (monte-carlo); table is the look-up that the closure itself uses. The error
-of quadrature is the difference from one of half the nodes, that of Monte Carlo its standard error.
+of quadrature is the difference from a coarser one, that of Monte Carlo its standard error. mu below
+0 is seen from inside a dielectric, of which what is transmitted is listed beside what is reflected.
 
 examples:
   regain albedo --alpha 1 --constant 1                     what a rough mirror keeps: 1 - ln 2 at mu 1
   regain albedo --alpha 1 --constant 1 --method turquin    the white furnace: 1
   regain albedo --closure generalized_schlick --f0 1,0.78,0.34 --alpha 0.5,0.1 --mu 0.2,0.9
   regain albedo --alpha 0.5 --n 0.2,0.4,1.4 --k 3.4,2.3,1.8 --how monte-carlo --n-samples 1000000
+  regain albedo --closure dielectric --eta 1.5 --alpha 0.5 --mu -0.5,0.5    rough glass, both sides
+  regain albedo --distribution gtr --gamma 1 --alpha 0.3 --method walk      all bounces
+  regain albedo --alpha 1 --constant 1 --method walk --order 2              the second bounce alone
 )help";
 
 struct Arguments
 {
     std::string closure, distribution = "ggx", method = "none", precision = "float";
-    std::string how{albedo_methods[1]};
-    std::vector<double> alpha, F0, F82, n, k, constant;
+    std::string how, scatter_mode, shadowing;
+    std::vector<double> alpha, F0, F82, n, k, constant, gamma, eta;
     std::vector<double> mu{0.01, 0.1, 0.2, 0.5, 0.8, 1};
     double strength = 1;
+    bool thin_walled = false;
+    std::uint64_t order = 0;
     std::uint64_t samples = AlbedoSettings{}.samples, seed = 0;
     bool json = false;
 };
@@ -47,13 +53,21 @@ Json channels(const std::vector<double>& given)
 // The same object as in a query, so that the same is accepted and the errors read alike.
 Json as_json(const Arguments& a)
 {
-    Json json{{"distribution", a.distribution},
-              {"method", a.method},
+    Json json{{"method", a.method},
               {"precision", a.precision},
               {"strength", a.strength},
               {"closure", a.closure}};
     if (a.closure.empty())
-        json["closure"] = name(a.F0.empty() ? Lobe::conductor : Lobe::generalized_schlick);
+        json["closure"] = name(!a.eta.empty() ? Lobe::dielectric
+                               : a.F0.empty() ? Lobe::conductor
+                                              : Lobe::generalized_schlick);
+    if (json["closure"] != name(Lobe::sheen) || a.distribution != "ggx")
+        json["distribution"] = a.distribution;
+    if (!a.gamma.empty()) json["gamma"] = a.gamma[0];
+    if (!a.eta.empty()) json["fresnel"]["eta"] = a.eta[0];
+    if (!a.scatter_mode.empty()) json["scatter_mode"] = a.scatter_mode;
+    if (!a.shadowing.empty()) json["transmission_shadowing"] = a.shadowing;
+    if (a.thin_walled) json["thin_walled"] = true;
     if (a.alpha.size() == 1)
         json["alpha"] = a.alpha[0];
     else if (!a.alpha.empty())
@@ -66,11 +80,21 @@ Json as_json(const Arguments& a)
     return json;
 }
 
-AlbedoSettings settings_of(const Arguments& a)
+AlbedoSettings settings_of(const Arguments& a, const ClosureSpec& spec)
 {
     AlbedoSettings settings;
-    settings.how = static_cast<AlbedoMethod>(
-        choose("how", a.how, albedo_methods, std::array<std::string_view, 0>{}));
+    settings.how = default_albedo_method(spec);
+    if (!a.how.empty())
+        settings.how = static_cast<AlbedoMethod>(
+            choose("how", a.how, albedo_methods, std::array<std::string_view, 0>{}));
+    if (a.order > 0)
+    {
+        if (!spec.is_stochastic()) throw BadInput("--order belongs to the method walk");
+        if (a.order > most_bounces)
+            throw BadInput(fmt::format("--order is {}; accepted: 1 to {}", a.order, most_bounces));
+        settings.order = static_cast<int>(a.order);
+    }
+    require_possible(spec, settings);
     if (a.samples < 2 || a.samples > most_averaged_samples)
         throw BadInput(
             fmt::format("--n-samples is {}; accepted: 2 to {}", a.samples, most_averaged_samples));
@@ -87,11 +111,14 @@ Json as_json(const MeasuredAlbedo& albedo)
             {"stderr", albedo.error ? Json(*albedo.error) : Json()}};
 }
 
-void print_row(const std::string& label, const MeasuredAlbedo& albedo)
+void print_row(const std::string& label, const MeasuredAlbedo& albedo, bool two_sides)
 {
     const std::string error = albedo.error ? fmt::format("{:9.1e}", *albedo.error) : "        -";
-    fmt::print("{:>8}  {:10.6f} {:10.6f} {:10.6f}  {}\n", label, albedo.reflect.x, albedo.reflect.y,
-               albedo.reflect.z, error);
+    const auto colour = [](const ColorD& c) {
+        return fmt::format("{:10.6f} {:10.6f} {:10.6f}", c.x, c.y, c.z);
+    };
+    fmt::print("{:>8}  {}  {}{}\n", label, colour(albedo.reflect),
+               two_sides ? colour(albedo.transmit) + "  " : "", error);
 }
 
 int run(const Arguments& a)
@@ -99,25 +126,32 @@ int run(const Arguments& a)
     const Json json = as_json(a);
     Fields fields(json, "the closure");
     const ClosureSpec spec = read_closure_spec(fields, true);
-    const AlbedoSettings settings = settings_of(a);
+    fields.finish();
+    const AlbedoSettings settings = settings_of(a, spec);
+    const std::string_view how = albedo_methods[static_cast<std::size_t>(settings.how)];
     for (double mu : a.mu)
         if (!(mu >= -1 && mu <= 1))
             throw BadInput(fmt::format("--mu holds {}; accepted: cosines from -1 to 1", mu));
 
-    Json answers{{"closure", json}, {"how", a.how}, {"directional", Json::array()}};
+    const bool both = spec.has_two_sides();
+    Json answers{{"closure", json}, {"how", how}, {"directional", Json::array()}};
     if (!a.json)
     {
-        fmt::print("{}, ggx, alpha {:g}{}; method {}, strength {:g}; {}, {}\n", name(spec.lobe),
-                   spec.alpha_x,
+        const std::string gamma =
+            shaders::has_gamma(spec.distribution) ? fmt::format(" of gamma {:g}", spec.gamma) : "";
+        fmt::print("{}, {}{}, alpha {:g}{}; method {}, strength {:g}; {}, {}\n", name(spec.lobe),
+                   shaders::name(spec.distribution), gamma, spec.alpha_x,
                    spec.alpha_y == spec.alpha_x ? "" : fmt::format(",{:g}", spec.alpha_y), a.method,
-                   spec.strength, a.how, a.precision);
-        fmt::print("{:>8}  {:>10} {:>10} {:>10}  {:>9}\n", "mu", "red", "green", "blue", "error");
+                   spec.strength, how, a.precision);
+        constexpr const char* colours = "       red      green       blue";
+        fmt::print("{:>8}  {}  {}    error\n", "mu", colours,
+                   both ? "       and transmitted            " : "");
     }
     for (double mu : a.mu)
     {
         const MeasuredAlbedo albedo = measured_albedo(spec, direction_at(mu), settings);
         if (!a.json)
-            print_row(fmt::format("{:g}", mu), albedo);
+            print_row(fmt::format("{:g}", mu), albedo, both);
         else
         {
             Json entry = as_json(albedo);
@@ -125,14 +159,16 @@ int run(const Arguments& a)
             answers["directional"].push_back(entry);
         }
     }
-    const MeasuredAlbedo average = measured_average_albedo(spec, settings);
-    if (!a.json)
-        print_row("average", average);
-    else
-    {
-        answers["average"] = as_json(average);
-        fmt::print("{}\n", answers.dump());
-    }
+    const auto average = [&](const char* label, bool below) {
+        const MeasuredAlbedo albedo = measured_average_albedo(spec, settings, below);
+        if (!a.json)
+            print_row(label, albedo, both);
+        else
+            answers[label] = as_json(albedo);
+    };
+    average("average", false);
+    if (both) average("inside", true);
+    if (a.json) fmt::print("{}\n", answers.dump());
     return kDone;
 }
 
@@ -151,18 +187,28 @@ void add_albedo(CLI::App& app, int& exit_code)
     command->footer(help_footer);
     auto a = std::make_shared<Arguments>();
     command->add_option("--closure", a->closure,
-                        "conductor (default), generalized_schlick (default with --f0)");
-    command->add_option("--distribution", a->distribution, "ggx (default)");
+                        "conductor (default), generalized_schlick (default with --f0), "
+                        "dielectric (default with --eta), sheen");
+    command->add_option("--distribution", a->distribution, "ggx (default), beckmann, gtr, std");
+    add_numbers(command, "--gamma", a->gamma, 1, "tail of gtr (up to 10) and std (1.51 to 100); 2");
     add_numbers(command, "--alpha", a->alpha, 2, "width in [0, 1], or alpha_x,alpha_y; 0.05");
     add_numbers(command, "--f0", a->F0, 3, "Schlick: colour at normal incidence");
     add_numbers(command, "--f82", a->F82, 3, "Schlick: tint at 82 degrees");
     add_numbers(command, "--n", a->n, 3, "conductor: index of refraction");
     add_numbers(command, "--k", a->k, 3, "conductor: extinction");
     add_numbers(command, "--constant", a->constant, 3, "the same reflectance at every angle");
-    command->add_option("--method", a->method, "of compensation; none (default), turquin, ...");
+    add_numbers(command, "--eta", a->eta, 1, "dielectric: index inside over index outside; 1.5");
+    command->add_option("--scatter-mode", a->scatter_mode, "of dielectric: R, T, RT (default)");
+    command->add_option("--transmission-shadowing", a->shadowing,
+                        "of dielectric: correlated (default), beta");
+    command->add_flag("--thin-walled", a->thin_walled, "the dielectric is a sheet");
+    command->add_option("--method", a->method,
+                        "of compensation; none (default), turquin, kulla-conty, walk, ...");
     command->add_option("--strength", a->strength, "of the method, in [0, 1]; 1");
     add_numbers(command, "--mu", a->mu, 1 << 20, "cosines; 0.01,0.1,0.2,0.5,0.8,1");
-    command->add_option("--how", a->how, "quadrature (default), table, monte-carlo");
+    command->add_option("--how", a->how,
+                        "quadrature (default), table, monte-carlo (default of walk)");
+    command->add_option("--order", a->order, "of walk: light of so many bounces alone");
     command->add_option("--n-samples", a->samples, "of Monte Carlo, for each number; 65536")
         ->check(CLI::NonNegativeNumber);
     // CLI11 takes -1 for the largest number there is.

@@ -11,34 +11,30 @@ namespace regain::tools {
 namespace {
 
 using Names = std::string_view;
+using shaders::DistributionKind;
 
-constexpr std::array<Names, 2> lobes{"conductor", "generalized_schlick"};
-constexpr std::array<Names, 9> planned_lobes{
-    "dielectric", "sheen",   "oren_nayar_diffuse", "burley_diffuse", "translucent", "layer", "mix",
-    "add",        "multiply"};
-constexpr std::array<Names, 1> distributions{"ggx"};
-constexpr std::array<Names, 3> planned_distributions{"beckmann", "gtr", "std"};
-constexpr std::array<Names, 7> planned_methods{
-    "kulla-conty", "kulla-conty-series", "directional", "balanced", "tail", "walk", "burley-sheen"};
+constexpr std::array<Names, 4> lobes{"conductor", "generalized_schlick", "dielectric", "sheen"};
+constexpr std::array<Names, 7> planned_lobes{
+    "oren_nayar_diffuse", "burley_diffuse", "translucent", "layer", "mix", "add", "multiply"};
+constexpr std::array<Names, 4> distributions{"ggx", "beckmann", "gtr", "std"};
+constexpr std::array<Names, 3> planned_methods{"directional", "balanced", "tail"};
 constexpr std::array<Names, 2> precisions{"float", "double"};
 constexpr std::array<Names, 2> transports{"importance", "radiance"};
-constexpr std::array<Names, 1> scatter_modes{"R"};
-constexpr std::array<Names, 2> planned_scatter_modes{"T", "RT"};
+constexpr std::array<Names, 3> scatter_modes{"R", "T", "RT"};
+constexpr std::array<Names, 1> reflection_alone{"R"};
+constexpr std::array<Names, 2> shadowings{"correlated", "beta"};
 constexpr std::array<Names, 0> nothing_planned{};
 
-constexpr std::size_t method_count = std::size(all_methods);
+// What the closures accept without clamping.
+constexpr Range gtr_range{gtr_min_gamma, gtr_max_gamma}, std_range{std_min_gamma, std_max_gamma};
+constexpr Range tint_range{0, 100};
 
-std::array<Names, method_count> method_names()
+shaders::Compensation read_method(Names given)
 {
-    std::array<Names, method_count> names;
-    for (std::size_t i = 0; i < method_count; ++i) names[i] = regain::name(all_methods[i]);
-    return names;
-}
-
-Method read_method(Names given)
-{
-    if (const std::optional<Method> method = method_named(given)) return *method;
-    choose("method", given, method_names(), planned_methods);  // throws
+    if (const auto method = shaders::compensation_named(given)) return *method;
+    const auto& names = shaders::compensation_names();
+    choose("method", given, names.data(), names.size(), planned_methods.data(),
+           planned_methods.size());  // throws
     return Method::none;
 }
 
@@ -51,13 +47,100 @@ FresnelSpec read_fresnel_of(Lobe lobe, Fields& fields)
             fields.reject(parameter, "'fresnel' says the same; give one of the two");
         return read_fresnel(*object);
     }
-    if (lobe == Lobe::conductor) return read_conductor_parameters(fields);
-    return read_schlick_parameters(fields);
+    switch (lobe)
+    {
+        case Lobe::conductor: return read_conductor_parameters(fields);
+        case Lobe::generalized_schlick: return read_schlick_parameters(fields);
+        case Lobe::dielectric: return read_dielectric_parameters(fields);
+        case Lobe::sheen: break;
+    }
+    return ConstantParameters{};
+}
+
+void read_distribution(Fields& fields, ClosureSpec& spec)
+{
+    if (const auto given = fields.text("distribution"))
+        spec.distribution = static_cast<DistributionKind>(
+            choose("distribution", *given, distributions, nothing_planned));
+    if (!shaders::has_gamma(spec.distribution))
+        fields.reject("gamma", "it belongs to the distributions gtr and std");
+    else
+        spec.gamma =
+            fields
+                .number("gamma", spec.distribution == DistributionKind::gtr ? gtr_range : std_range)
+                .value_or(spec.gamma);
+    if (const auto alpha = fields.one_or_two("alpha", unit_range))
+        spec.alpha_x = alpha->x, spec.alpha_y = alpha->y;
+}
+
+void read_interface(Fields& fields, ClosureSpec& spec)
+{
+    shaders::InterfaceSurface& i = spec.interface;
+    const auto* eta = std::get_if<DielectricParameters>(&spec.fresnel);
+    if (!eta) throw BadInput("the closure dielectric takes a 'fresnel' with eta, and no other");
+    i.eta = eta->eta;
+    if (const auto given = fields.text("scatter_mode"))
+        i.mode = static_cast<ScatterMode>(
+            choose("scatter_mode", *given, scatter_modes, nothing_planned));
+    i.thin_walled = fields.flag("thin_walled").value_or(false);
+    i.tint = fields.color("tint", unit_range).value_or(i.tint);
+    if (i.thin_walled)
+        fields.reject("transmission_shadowing",
+                      "a thin sheet transmits as it reflects, and has no form to choose");
+    else if (spec.is_stochastic())
+    {
+        // A walk is what the beta form is the first bounce of.
+        i.shadowing = TransmissionShadowing::beta;
+        if (fields.text("transmission_shadowing").value_or("beta") != "beta")
+            throw BadInput("the method walk needs 'transmission_shadowing' beta");
+    }
+    else if (const auto given = fields.text("transmission_shadowing"))
+        i.shadowing = static_cast<TransmissionShadowing>(
+            choose("transmission_shadowing", *given, shadowings, nothing_planned));
+}
+
+void read_reflection(Fields& fields, const ClosureSpec& spec)
+{
+    if (std::holds_alternative<DielectricParameters>(spec.fresnel))
+        throw BadInput("a 'fresnel' with eta belongs to the closure dielectric");
+    if (const auto given = fields.text("scatter_mode"))
+        choose("scatter_mode of this closure", *given, reflection_alone, nothing_planned);
+    for (const char* field : {"transmission_shadowing", "thin_walled", "tint"})
+        fields.reject(field, "it belongs to the closure dielectric");
 }
 
 }  // namespace
 
 std::string_view name(Lobe lobe) { return lobes[static_cast<std::size_t>(lobe)]; }
+
+shaders::MicrofacetMaterial ClosureSpec::material() const
+{
+    shaders::MicrofacetMaterial m;
+    m.distribution = distribution;
+    m.gamma = gamma;
+    m.alpha_x = alpha_x;
+    m.alpha_y = alpha_y;
+    m.method = method;
+    if (lobe == Lobe::dielectric)
+        m.surface = interface;
+    else if (lobe == Lobe::sheen)
+        m.surface = sheen;
+    else if (const auto* schlick = std::get_if<SchlickParameters>(&fresnel))
+        m.surface = *schlick;
+    else if (const auto* conductor = std::get_if<ConductorParameters>(&fresnel))
+        m.surface = *conductor;
+    else if (const auto* constant = std::get_if<ConstantParameters>(&fresnel))
+        // Schlick's curve between equal ends, to the bit.
+        m.surface = SchlickParameters{constant->value, ColorD(1.0), constant->value, 5};
+    return m;
+}
+
+std::size_t ClosureSpec::random_numbers() const
+{
+    const bool two = std::holds_alternative<Method>(method) && lobe != Lobe::dielectric &&
+                     lobe != Lobe::sheen && !shaders::has_gamma(distribution);
+    return two ? 2 : 3;
+}
 
 ClosureSpec read_closure_spec(Fields& fields, bool closure_needed)
 {
@@ -67,24 +150,34 @@ ClosureSpec read_closure_spec(Fields& fields, bool closure_needed)
     else if (closure_needed)
         fields.missing("'closure'");
 
-    if (const auto given = fields.text("distribution"))
-        choose("distribution", *given, distributions, planned_distributions);
-    fields.reject("gamma", "it belongs to the distributions gtr and std, not supported yet");
-    if (const auto alpha = fields.one_or_two("alpha", unit_range))
-        spec.alpha_x = alpha->x, spec.alpha_y = alpha->y;
-
-    spec.fresnel = read_fresnel_of(spec.lobe, fields);
-
-    // Nothing is transmitted by these lobes, so the two transports are the same.
-    if (const auto given = fields.text("scatter_mode"))
-        choose("scatter_mode", *given, scatter_modes, planned_scatter_modes);
-    fields.reject("transmission_shadowing",
-                  "it belongs to the closure dielectric, not supported yet");
-    if (const auto given = fields.text("transport"))
-        choose("transport", *given, transports, nothing_planned);
-
     if (const auto given = fields.text("method")) spec.method = read_method(*given);
     spec.strength = fields.number("strength", unit_range).value_or(1);
+    if (std::holds_alternative<shaders::RandomWalk>(spec.method) && spec.strength != 0 &&
+        spec.strength != 1)
+        throw BadInput(
+            fmt::format("'strength' is {}; accepted: 0 or 1 for the method walk", spec.strength));
+
+    if (spec.lobe == Lobe::sheen)
+    {
+        for (const char* field : {"distribution", "gamma", "alpha", "fresnel"})
+            fields.reject(field, "the closure sheen has no microfacets");
+        spec.sheen.color = fields.color("color", tint_range).value_or(spec.sheen.color);
+        spec.sheen.weight = fields.number("weight", unit_range).value_or(spec.sheen.weight);
+        read_reflection(fields, spec);
+    }
+    else
+    {
+        read_distribution(fields, spec);
+        spec.fresnel = read_fresnel_of(spec.lobe, fields);
+        if (spec.lobe == Lobe::dielectric)
+            read_interface(fields, spec);
+        else if (closure_needed || fields.has("closure"))
+            read_reflection(fields, spec);
+    }
+
+    if (const auto given = fields.text("transport"))
+        spec.transport =
+            static_cast<Transport>(choose("transport", *given, transports, nothing_planned));
     if (const auto given = fields.text("precision"))
         spec.precision =
             static_cast<Precision>(choose("precision", *given, precisions, nothing_planned));

@@ -2,59 +2,70 @@
 // Copyright Contributors to the Regain project
 
 /// @file
-/// A closure as the commands name it, and the closure itself from that. What the design knows but
-/// the library does not have yet is refused by name.
+/// A closure as the commands name it. What the design knows but the library does not have yet is
+/// refused by name.
 
 #pragma once
 
 #include "fresnel_spec.h"
 
-#include <regain/closures/compensated.h>
-#include <regain/closures/ggx.h>
-#include <regain/closures/microfacet_reflection.h>
-#include <regain/luts/builtin.h>
+#include <regain/shaders/microfacet_material.h>
 
 namespace regain::tools {
 
-enum class Lobe { conductor, generalized_schlick };
+enum class Lobe { conductor, generalized_schlick, dielectric, sheen };
 enum class Precision { single, twice };
+enum class Transport { importance, radiance };
 
-/// The lobe's and the method's name on command lines; the distribution is GGX.
 struct ClosureSpec
 {
     Lobe lobe = Lobe::conductor;
+    shaders::DistributionKind distribution = shaders::DistributionKind::ggx;
+    double gamma = 2;                       ///< of gtr and std
     double alpha_x = 0.05, alpha_y = 0.05;  ///< MaterialX's default
     FresnelSpec fresnel = ConductorParameters{};
-    Method method = Method::none;
+    shaders::InterfaceSurface interface;  ///< of dielectric; its eta is that of `fresnel`
+    shaders::SheenSurface sheen;
+    shaders::Compensation method = Method::none;
     double strength = 1;
     Precision precision = Precision::single;
+    Transport transport = Transport::importance;
+
+    shaders::MicrofacetMaterial material() const;
+
+    /// eval is an estimate that takes random numbers.
+    bool is_stochastic() const
+    {
+        return std::holds_alternative<shaders::RandomWalk>(method) && strength > 0;
+    }
+    /// How many numbers sample reads, 2 or 3.
+    std::size_t random_numbers() const;
+    /// wo may be on either side of the surface.
+    bool has_two_sides() const { return lobe == Lobe::dielectric; }
 };
 
 std::string_view name(Lobe lobe);
 
-/// Reads the fields that describe a closure: closure, distribution, alpha, fresnel (or the lobe's
-/// parameters by MaterialX's names), scatter_mode, method, strength, precision, transport. Does
-/// not finish the fields. Throws BadInput; also where `closure` is missing, if it is needed.
+/// Reads the fields that describe a closure: closure, distribution, gamma, alpha, fresnel (or the
+/// lobe's parameters by MaterialX's names), scatter_mode, transmission_shadowing, thin_walled,
+/// tint, color, weight, method, strength, precision, transport. Does not finish the fields. Throws
+/// BadInput; also where `closure` is missing, if it is needed.
 ClosureSpec read_closure_spec(Fields& fields, bool closure_needed);
 
-/// Calls `visit` with the closure, a Compensated at the precision of Real.
+/// Calls `visit` with the distribution at the precision of Real.
 template <class Real, class Visit>
-decltype(auto) with_closure_of(const ClosureSpec& spec, const Visit& visit)
+decltype(auto) with_distribution(const ClosureSpec& spec, const Visit& visit)
 {
-    return with_fresnel<Real>(spec.fresnel, [&](const auto& fresnel) -> decltype(auto) {
-        const MicrofacetTables tables = luts::ggx_tables();
-        const MicrofacetReflection lobe(GGX<Real>(Real(spec.alpha_x), Real(spec.alpha_y)), fresnel,
-                                        tables);
-        return visit(compensated(lobe, spec.method, tables, Real(spec.strength)));
-    });
-}
-
-/// The same at the precision that the specification asks for.
-template <class Visit>
-decltype(auto) with_closure(const ClosureSpec& spec, const Visit& visit)
-{
-    if (spec.precision == Precision::twice) return with_closure_of<double>(spec, visit);
-    return with_closure_of<float>(spec, visit);
+    using shaders::DistributionKind;
+    const Real ax = Real(spec.alpha_x), ay = Real(spec.alpha_y), gamma = Real(spec.gamma);
+    switch (spec.distribution)
+    {
+        case DistributionKind::beckmann: return visit(Beckmann<Real>(ax, ay));
+        case DistributionKind::gtr: return visit(GTR<Real>(ax, ay, gamma));
+        case DistributionKind::std: return visit(STD<Real>(ax, ay, gamma));
+        case DistributionKind::ggx: break;
+    }
+    return visit(GGX<Real>(ax, ay));
 }
 
 }  // namespace regain::tools

@@ -145,6 +145,26 @@ std::optional<Imath::V2d> Fields::two(std::string_view name, Range range)
                       number_in(name, (*value)[1], range, what));
 }
 
+std::optional<Imath::V3d> Fields::numbers(std::string_view name, std::size_t size, Range range)
+{
+    const Json* value = find(name);
+    if (!value) return std::nullopt;
+    list_of(name, *value, size, range);
+    Imath::V3d list(0.0);
+    for (unsigned i = 0; i < size; ++i)
+        list[static_cast<int>(i)] =
+            number_in(name, (*value)[i], range, size == 2 ? "two numbers" : "three numbers");
+    return list;
+}
+
+std::optional<bool> Fields::flag(std::string_view name)
+{
+    const Json* value = find(name);
+    if (!value) return std::nullopt;
+    if (!value->is_boolean()) not_accepted(name, kind(*value), "true or false");
+    return value->get<bool>();
+}
+
 std::optional<Imath::V3d> Fields::direction(std::string_view name)
 {
     const Json* value = find(name);

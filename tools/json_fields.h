@@ -55,6 +55,10 @@ public:
     std::optional<Imath::V2d> one_or_two(std::string_view name, Range range);
     /// A list of exactly two numbers.
     std::optional<Imath::V2d> two(std::string_view name, Range range);
+    /// A list of exactly `size` numbers, 2 or 3; what is not given is 0.
+    std::optional<Imath::V3d> numbers(std::string_view name, std::size_t size, Range range);
+    /// true or false.
+    std::optional<bool> flag(std::string_view name);
     /// A unit vector, as given: it is not normalised.
     std::optional<Imath::V3d> direction(std::string_view name);
     std::optional<std::string_view> text(std::string_view name);

@@ -3,8 +3,9 @@
 
 #include "measured_albedo.h"
 
+#include "errors.h"
 #include "hemisphere.h"
-#include "random_numbers.h"
+#include "interface_integral.h"
 
 #include <cmath>
 
@@ -14,12 +15,6 @@ namespace {
 constexpr int fine_nodes = 64, coarse_nodes = 32;
 
 double largest(const ColorD& c) { return std::max({std::abs(c.x), std::abs(c.y), std::abs(c.z)}); }
-
-template <class Real>
-Vec3<Real> rounded(const Imath::V3d& w)
-{
-    return {static_cast<Real>(w.x), static_cast<Real>(w.y), static_cast<Real>(w.z)};
-}
 
 MeasuredAlbedo difference(const MeasuredAlbedo& a, const MeasuredAlbedo& b)
 {
@@ -33,54 +28,80 @@ void add(MeasuredAlbedo& sum, const MeasuredAlbedo& part, double weight)
 }
 
 // What the delta lobes reflect and transmit: their directions have no density, so that eval does
-// not know them. Which of them is chosen depends on u.
-template <class Prepared>
-MeasuredAlbedo delta_part(const Prepared& prepared)
+// not know them. Which of two is chosen depends on the third number, and their pdfs are the
+// probabilities of the choice.
+MeasuredAlbedo delta_part(const AnyClosure& prepared)
 {
-    using Vector = std::decay_t<decltype(prepared.wo())>;
-    using Real = typename Vector::BaseType;
     constexpr int n = 32;
+    constexpr double last = 1 - 0x1p-24;
     MeasuredAlbedo sum;
+    const auto count = [&](const Sample<double>& s) {
+        (s.transmitted ? sum.transmit : sum.reflect) += s.weight * (s.pdf / (n * n));
+    };
     for (int j = 0; j < n; ++j)
         for (int i = 0; i < n; ++i)
         {
-            const auto s = prepared.sample(
-                {static_cast<Real>((i + 0.5) / n), static_cast<Real>((j + 0.5) / n)});
-            if (!(s.valid && s.delta)) continue;
-            (s.transmitted ? sum.transmit : sum.reflect) += ColorD(s.weight) * (1.0 / (n * n));
+            const double u = (i + 0.5) / n, v = (j + 0.5) / n;
+            const auto first = prepared.sample({u, v, 0}), second = prepared.sample({u, v, last});
+            if (first.valid && first.delta) count(first);
+            const bool same = first.valid && first.transmitted == second.transmitted;
+            if (second.valid && second.delta && !same) count(second);
         }
     return sum;
 }
 
-template <class Closure>
-MeasuredAlbedo by_quadrature(const Closure& closure, const Imath::V3d& wo, int nodes)
+// `nodes` as in hemisphere.h; an interface's integral is refined until it is as good.
+MeasuredAlbedo by_quadrature(AnyClosure& closure, const ClosureSpec& spec, const Imath::V3d& wo,
+                             int nodes)
 {
-    using Real = typename Closure::Real;
-    const auto prepared = closure.prepare(rounded<Real>(wo));
-    const auto& distribution = closure.lobe().distribution();
-    if (distribution.is_delta()) return delta_part(prepared);
+    closure.prepare(wo);
+    const Traits traits = closure.traits();
     MeasuredAlbedo albedo;
-    albedo.reflect = integrate_reflection(
-        wo, distribution.alpha_x(), distribution.alpha_y(), nodes,
-        [&](const Imath::V3d& wi) { return prepared.eval(rounded<Real>(wi)); });
+    if (traits.delta) albedo = delta_part(closure);
+    // A lobe without microfacets is as wide as they come.
+    const double widest = spec.lobe == Lobe::sheen ? 1 : 0, least = 1e-9;
+    const double ax = std::max({spec.alpha_x, widest, least}),
+                 ay = std::max({spec.alpha_y, widest, least});
+    const auto eval = [&](const Imath::V3d& wi) { return closure.eval(wi); };
+
+    if (spec.lobe != Lobe::dielectric)
+    {
+        albedo.reflect += integrate_reflection(wo, ax, ay, nodes, eval);
+        return albedo;
+    }
+    if (spec.interface.thin_walled)
+    {
+        // Both lobes are a mirror's, one of them turned to the other side.
+        const auto turned = [](const Imath::V3d& w) { return Imath::V3d(w.x, w.y, -w.z); };
+        const bool below = wo.z < 0;
+        const Imath::V3d up = below ? turned(wo) : wo;
+        albedo.reflect += integrate_reflection(
+            up, ax, ay, nodes, [&](const Imath::V3d& wi) { return eval(below ? turned(wi) : wi); });
+        albedo.transmit += integrate_reflection(
+            up, ax, ay, nodes, [&](const Imath::V3d& wi) { return eval(below ? wi : turned(wi)); });
+        return albedo;
+    }
+    const InterfaceIntegral both =
+        integrate_interface(wo, spec.interface.eta, ax, ay, std::max(nodes, coarse_nodes), eval);
+    albedo.reflect += both.reflected;
+    albedo.transmit += both.transmitted;
     return albedo;
 }
 
-// The mean of `samples` weights and its standard error; `draw` makes one sample.
+// Mean and standard error of what `draw` returns, of which each is an Albedo.
 template <class Draw>
-MeasuredAlbedo mean_weight(std::uint64_t samples, const Draw& draw)
+MeasuredAlbedo mean_of(std::uint64_t samples, const Draw& draw)
 {
     // Running means and squares (Welford): sums of 1e8 equal weights would lose digits.
     MeasuredAlbedo mean;
     ColorD squares(0.0);
     for (std::uint64_t i = 1; i <= samples; ++i)
     {
-        const auto s = draw();
-        const ColorD weight(s.weight), zero(0.0);
-        const ColorD before = mean.reflect + mean.transmit;
+        const Albedo<double> s = draw();
+        const ColorD before = mean.reflect + mean.transmit, weight = s.reflect + s.transmit;
         const double part = 1.0 / static_cast<double>(i);
-        mean.reflect += ((s.transmitted ? zero : weight) - mean.reflect) * part;
-        mean.transmit += ((s.transmitted ? weight : zero) - mean.transmit) * part;
+        mean.reflect += (s.reflect - mean.reflect) * part;
+        mean.transmit += (s.transmit - mean.transmit) * part;
         squares += (weight - before) * (weight - mean.reflect - mean.transmit);
     }
     const double n = static_cast<double>(samples);
@@ -88,40 +109,23 @@ MeasuredAlbedo mean_weight(std::uint64_t samples, const Draw& draw)
     return mean;
 }
 
-template <class Closure>
-MeasuredAlbedo measure(const Closure& closure, const Imath::V3d& wo, const AlbedoSettings& settings)
+// What one sample says of the albedo.
+Albedo<double> drawn(const AnyClosure& prepared, const Imath::V3d& u, std::optional<int> order)
 {
-    using Real = typename Closure::Real;
-    switch (settings.how)
-    {
-        case AlbedoMethod::table: {
-            const auto albedo = closure.albedo(rounded<Real>(wo));
-            return {ColorD(albedo.reflect), ColorD(albedo.transmit), std::nullopt};
-        }
-        case AlbedoMethod::quadrature: {
-            MeasuredAlbedo fine = by_quadrature(closure, wo, fine_nodes);
-            const MeasuredAlbedo off = difference(fine, by_quadrature(closure, wo, coarse_nodes));
-            fine.error = std::max(largest(off.reflect), largest(off.transmit));
-            return fine;
-        }
-        case AlbedoMethod::monte_carlo: break;
-    }
-    RandomNumbers random(settings.seed);
-    const auto prepared = closure.prepare(rounded<Real>(wo));
-    return mean_weight(settings.samples, [&] {
-        const Real u = random.template next<Real>(), v = random.template next<Real>();
-        return prepared.sample({u, v});
-    });
+    const ColorD zero(0.0);
+    const Sample<double> s = prepared.sample(u);
+    if (!s.valid || (order && prepared.bounces(u) != *order)) return {zero, zero};
+    return s.transmitted ? Albedo<double>{zero, s.weight} : Albedo<double>{s.weight, zero};
 }
 
 // 2 int E mu dmu over the cosine and the mean over the azimuth, by a rule of `nodes` cosines.
 template <class E>
-MeasuredAlbedo averaged(bool isotropic, int nodes, const E& albedo_at)
+MeasuredAlbedo averaged(bool isotropic, bool below, int nodes, const E& albedo_at)
 {
     const luts::QuadratureRule& rule = gauss_rule(nodes);
     // The lobe is symmetric about both axes, and smooth and periodic in the azimuth.
     const int azimuths = isotropic ? 1 : nodes / 2;
-    const double quarter = std::acos(0.0);
+    const double quarter = std::acos(0.0), side = below ? -1 : 1;
     MeasuredAlbedo sum;
     for (int k = 0; k < azimuths; ++k)
         for (std::size_t i = 0; i < rule.x.size(); ++i)
@@ -129,47 +133,17 @@ MeasuredAlbedo averaged(bool isotropic, int nodes, const E& albedo_at)
             // mu = x^3 gathers cosines at grazing angles, where the albedo dips.
             const double x = rule.x[i], mu = x * x * x;
             const double phi = isotropic ? 0 : quarter * (k + 0.5) / azimuths;
-            add(sum, albedo_at(direction_at(mu, phi)),
+            add(sum, albedo_at(direction_at(side * mu, phi)),
                 rule.weight[i] * 3 * x * x * 2 * mu / azimuths);
         }
     return sum;
 }
 
-template <class Closure>
-MeasuredAlbedo measure_average(const Closure& closure, const AlbedoSettings& settings)
+// Samples and values of transmitted light are wanted as energy.
+ClosureSpec as_energy(ClosureSpec spec)
 {
-    using Real = typename Closure::Real;
-    const bool isotropic = !closure.traits().anisotropic;
-    switch (settings.how)
-    {
-        case AlbedoMethod::table:
-            return averaged(isotropic, 32, [&](const Imath::V3d& wo) {
-                const auto albedo = closure.albedo(rounded<Real>(wo));
-                return MeasuredAlbedo{ColorD(albedo.reflect), ColorD(albedo.transmit),
-                                      std::nullopt};
-            });
-        case AlbedoMethod::quadrature: {
-            const auto by = [&](int cosines, int nodes) {
-                return averaged(isotropic, cosines, [&](const Imath::V3d& wo) {
-                    return by_quadrature(closure, wo, nodes);
-                });
-            };
-            MeasuredAlbedo fine = by(24, fine_nodes / 2);
-            const MeasuredAlbedo off = difference(fine, by(16, coarse_nodes / 2));
-            fine.error = std::max(largest(off.reflect), largest(off.transmit));
-            return fine;
-        }
-        case AlbedoMethod::monte_carlo: break;
-    }
-    RandomNumbers random(settings.seed);
-    const double turn = 4 * std::acos(0.0);
-    return mean_weight(settings.samples, [&] {
-        // Cosine-weighted directions.
-        const double mu = std::sqrt(1 - random.next<double>());
-        const double phi = turn * random.next<double>();
-        const Real u = random.template next<Real>(), v = random.template next<Real>();
-        return closure.sample(rounded<Real>(direction_at(mu, phi)), {u, v});
-    });
+    spec.transport = Transport::importance;
+    return spec;
 }
 
 }  // namespace
@@ -180,16 +154,98 @@ Imath::V3d direction_at(double mu, double phi)
     return {sine * std::cos(phi), sine * std::sin(phi), mu};
 }
 
-MeasuredAlbedo measured_albedo(const ClosureSpec& spec, const Imath::V3d& wo,
-                               const AlbedoSettings& settings)
+AlbedoMethod default_albedo_method(const ClosureSpec& spec)
 {
-    return with_closure(spec, [&](const auto& closure) { return measure(closure, wo, settings); });
+    return spec.is_stochastic() ? AlbedoMethod::monte_carlo : AlbedoMethod::quadrature;
 }
 
-MeasuredAlbedo measured_average_albedo(const ClosureSpec& spec, const AlbedoSettings& settings)
+void require_possible(const ClosureSpec& spec, const AlbedoSettings& settings)
 {
-    return with_closure(spec,
-                        [&](const auto& closure) { return measure_average(closure, settings); });
+    if (!spec.is_stochastic()) return;
+    if (settings.how == AlbedoMethod::quadrature)
+        throw BadInput(
+            "how 'quadrature' takes an eval that is no estimate; accepted for the "
+            "method walk: monte-carlo, table");
+    if (settings.order && settings.how != AlbedoMethod::monte_carlo)
+        throw BadInput("'order' takes how 'monte-carlo'");
+}
+
+MeasuredAlbedo measured_albedo(AnyClosure& closure, const ClosureSpec& spec, const Imath::V3d& wo,
+                               const AlbedoSettings& settings)
+{
+    switch (settings.how)
+    {
+        case AlbedoMethod::table: {
+            closure.prepare(wo);
+            const Albedo<double> albedo = closure.albedo();
+            return {albedo.reflect, albedo.transmit, std::nullopt};
+        }
+        case AlbedoMethod::quadrature: {
+            MeasuredAlbedo fine = by_quadrature(closure, spec, wo, fine_nodes);
+            const MeasuredAlbedo off =
+                difference(fine, by_quadrature(closure, spec, wo, coarse_nodes));
+            fine.error = std::max(largest(off.reflect), largest(off.transmit));
+            return fine;
+        }
+        case AlbedoMethod::monte_carlo: break;
+    }
+    SampleNumbers numbers(spec, settings.seed);
+    closure.prepare(wo);
+    return mean_of(settings.samples,
+                   [&] { return drawn(closure, numbers.next(), settings.order); });
+}
+
+MeasuredAlbedo measured_albedo(const ClosureSpec& given, const Imath::V3d& wo,
+                               const AlbedoSettings& settings)
+{
+    const ClosureSpec spec = as_energy(given);
+    const auto closure = make_closure(spec, settings.how == AlbedoMethod::table);
+    return measured_albedo(*closure, spec, wo, settings);
+}
+
+MeasuredAlbedo measured_average_albedo(const ClosureSpec& given, const AlbedoSettings& settings,
+                                       bool below)
+{
+    const ClosureSpec spec = as_energy(given);
+    const auto closure = make_closure(spec, settings.how == AlbedoMethod::table);
+    const bool isotropic = !closure->traits().anisotropic;
+    switch (settings.how)
+    {
+        case AlbedoMethod::table:
+            return averaged(isotropic, below, 32, [&](const Imath::V3d& wo) {
+                return measured_albedo(*closure, spec, wo, settings);
+            });
+        case AlbedoMethod::quadrature: {
+            const auto by = [&](int cosines, int nodes) {
+                return averaged(isotropic, below, cosines, [&](const Imath::V3d& wo) {
+                    return by_quadrature(*closure, spec, wo, nodes);
+                });
+            };
+            MeasuredAlbedo fine = by(24, fine_nodes / 2);
+            const MeasuredAlbedo off = difference(fine, by(16, coarse_nodes / 2));
+            fine.error = std::max(largest(off.reflect), largest(off.transmit));
+            return fine;
+        }
+        case AlbedoMethod::monte_carlo: break;
+    }
+    SampleNumbers numbers(spec, settings.seed);
+    const double turn = 4 * std::acos(0.0), side = below ? -1 : 1;
+    return mean_of(settings.samples, [&] {
+        // Cosine-weighted directions.
+        const double mu = std::sqrt(1 - numbers.number());
+        closure->prepare(direction_at(side * mu, turn * numbers.number()));
+        return drawn(*closure, numbers.next(), settings.order);
+    });
+}
+
+MeasuredValue measured_value(const AnyClosure& prepared, const ClosureSpec& spec,
+                             const Imath::V3d& wi, std::uint64_t n, std::uint64_t seed)
+{
+    SampleNumbers numbers(spec, seed);
+    const MeasuredAlbedo mean = mean_of(n, [&] {
+        return Albedo<double>{prepared.eval(wi, numbers.next()), ColorD(0.0)};
+    });
+    return {mean.reflect, n > 1 ? *mean.error : 0};
 }
 
 }  // namespace regain::tools

@@ -29,44 +29,57 @@ conversation through two pipes.
 
 fields of a line
   op          eval, pdf, sample, albedo, gain, fresnel, ndf
-  closure     conductor, generalized_schlick
-  distribution  ggx (default)
+  closure     conductor, generalized_schlick, dielectric, sheen
+  distribution  ggx (default), beckmann, gtr, std
+  gamma       of gtr, from 0.001 to 10, and std, from 1.51 to 100; default 2
   alpha       a number in [0, 1], or [alpha_x, alpha_y]; default 0.05
-  fresnel     {"F0": [r,g,b], "F82": [r,g,b]} (F82 optional), {"n": [r,g,b], "k": [r,g,b]} or
-              {"constant": [r,g,b]}; instead of it, by MaterialX's names: ior and extinction of
-              conductor (default: gold), color0, color82, color90 and exponent of
-              generalized_schlick (default: 1, 1, 1, 5)
-  method      none (default), normalise, turquin, turquin-eq12, turquin-eq13, turquin-eq14, series
-  strength    of the method, in [0, 1]; default 1
+  fresnel     {"F0": [r,g,b], "F82": [r,g,b]} (F82 optional), {"n": [r,g,b], "k": [r,g,b]},
+              {"constant": [r,g,b]}, or {"eta": x} of dielectric; instead of it, by MaterialX's names:
+              ior and extinction of conductor (default: gold), color0, color82, color90 and exponent
+              of generalized_schlick (default: 1, 1, 1, 5), ior of dielectric (1.5)
+  scatter_mode  of dielectric: R, T, RT (default)
+  transmission_shadowing  of dielectric: correlated (default), beta
+  thin_walled   of dielectric: true for a sheet; tint: [r,g,b] of all that it scatters
+  color, weight of sheen; default 1
+  method      none (default), normalise, turquin, turquin-eq12, turquin-eq13, turquin-eq14, series,
+              kulla-conty, kulla-conty-series, walk, burley-sheen; docs/support.md says what goes
+              with what
+  strength    of the method, in [0, 1]; default 1; 0 or 1 for walk
   precision   float (default), double
-  transport   importance (default), radiance
+  transport   importance (default), radiance: transmitted values and weights times the squared ratio
+              of the indices on the sides of wo and wi
   wo          [x, y, z], a unit vector (length 1 within 0.001; used as given), z = normal; or
   mu          in [-1, 1], for wo = [sqrt(1 - mu^2), 0, mu]
   wi          eval, pdf
-  u           sample: [u1, u2], each in [0, 1); or
+  u           sample: [u1, u2], each in [0, 1), or [u1, u2, u3] where the closure reads three:
+              dielectric, gtr, std, sheen and every method that is no gain; or
   n, seed     sample: n samples (up to 1000000) from the seed (default 0)
-  how         albedo: quadrature (default), table, monte-carlo (with n, default 65536, and seed)
-  mu          fresnel: in [0, 1]
+  u; n, seed  eval of walk, an estimate: [u1, u2, u3], or the mean of n (default 1024)
+  how         albedo: quadrature (default), table, monte-carlo (with n, default 65536, and seed;
+              the default of walk)
+  order       albedo of walk: light of so many bounces alone
+  mu          fresnel: in [0, 1]; below 0 from inside a dielectric
   wm          ndf: the microfacet normal, beside wo
 
 answers
-  eval     {"value":[r,g,b]}            f |cos theta_i|
+  eval     {"value":[r,g,b]}            f |cos theta_i|; of walk with "stderr":e
   pdf      {"pdf":p}
-  sample   {"wi":[..],"weight":[r,g,b],"pdf":p,"event":"reflect","measure":"continuous"}, measure
-           "delta" for a mirror; {"event":"none"}; with n {"samples":[...]}
+  sample   {"wi":[..],"weight":[r,g,b],"pdf":p,"event":"reflect","measure":"continuous"}, event
+           "transmit" through a dielectric, measure "delta" for a mirror; {"event":"none"}; with n {"samples":[...]}
   albedo   {"reflect":[r,g,b],"transmit":[r,g,b],"stderr":e,"how":".."}; stderr is the difference
-           from a quadrature of half the nodes, the standard error of Monte Carlo, or null
-  gain     {"gain":[r,g,b],"form":"gain(wo)"}
+           from a coarser quadrature, the standard error of Monte Carlo, or null
+  gain     {"gain":[r,g,b],"form":"gain(wo)"}; with an added lobe the albedo over that without it
   fresnel  {"value":[r,g,b],"average":[r,g,b]}
   ndf      {"D":..,"lambda":..,"G1":..,"D_visible":..}
 
-Random numbers from a seed are SplitMix64's, two for a sample: the upper 24 bits of a draw over
+Random numbers from a seed are SplitMix64's, two or three for a sample: the upper 24 bits of a draw over
 2^24 in float, the upper 53 over 2^53 in double.
 
 examples:
   echo '{"op":"eval","closure":"conductor","alpha":0.5,"mu":0.7,"wi":[0,0,1]}' | regain query
   echo '{"op":"albedo","closure":"conductor","alpha":1,"fresnel":{"constant":[1,1,1]},"mu":1}' |
     regain query                        # 1 - ln 2, what a rough mirror keeps
+  echo '{"op":"sample","closure":"dielectric","alpha":0.3,"mu":-0.5,"n":3}' | regain query
   regain query questions.jsonl > answers.jsonl
 )help";
 

@@ -3,6 +3,7 @@
 
 #include "query_answer.h"
 
+#include "any_closure.h"
 #include "errors.h"
 #include "query_line.h"
 #include "random_numbers.h"
@@ -15,10 +16,11 @@
 namespace regain::tools {
 namespace {
 
+// Numbers as the shortest text that reads back as the same number of the query's precision.
 class Writer
 {
 public:
-    explicit Writer(fmt::memory_buffer& out) : _out(out) {}
+    Writer(fmt::memory_buffer& out, Precision precision) : _out(out), _precision(precision) {}
 
     Writer& operator<<(std::string_view text)
     {
@@ -27,15 +29,17 @@ public:
     }
     Writer& operator<<(const char* text) { return *this << std::string_view(text); }
 
-    template <class Real>
-    std::enable_if_t<std::is_floating_point_v<Real>, Writer&> operator<<(Real x)
+    Writer& operator<<(double x)
     {
         // JSON has no word for it, and no closure should answer it.
         if (!std::isfinite(x))
             throw BadInput(
                 "the answer is not finite: please report this line as an error of the "
                 "library");
-        fmt::format_to(std::back_inserter(_out), FMT_COMPILE("{}"), x);
+        if (_precision == Precision::single)
+            fmt::format_to(std::back_inserter(_out), FMT_COMPILE("{}"), static_cast<float>(x));
+        else
+            fmt::format_to(std::back_inserter(_out), FMT_COMPILE("{}"), x);
         return *this;
     }
 
@@ -43,12 +47,16 @@ public:
     template <class Real>
     Writer& operator<<(const Imath::Vec3<Real>& v)
     {
-        return *this << "[" << v.x << "," << v.y << "," << v.z << "]";
+        return *this << "[" << double(v.x) << "," << double(v.y) << "," << double(v.z) << "]";
     }
 
 private:
     fmt::memory_buffer& _out;
+    Precision _precision;
 };
+
+// For what the precision of the closure does not limit: measurements.
+Writer in_full(fmt::memory_buffer& out) { return {out, Precision::twice}; }
 
 template <class Real>
 Vec3<Real> rounded(const Imath::V3d& w)
@@ -56,15 +64,7 @@ Vec3<Real> rounded(const Imath::V3d& w)
     return {static_cast<Real>(w.x), static_cast<Real>(w.y), static_cast<Real>(w.z)};
 }
 
-// u < 1 also after rounding.
-template <class Real>
-Real rounded_random(double u)
-{
-    return std::min(static_cast<Real>(u), std::nextafter(Real(1), Real(0)));
-}
-
-template <class Real>
-void write_sample(Writer& out, const Sample<Real>& s)
+void write_sample(Writer& out, const Sample<double>& s)
 {
     if (!s.valid)
     {
@@ -76,31 +76,40 @@ void write_sample(Writer& out, const Sample<Real>& s)
         << (s.delta ? "delta" : "continuous") << R"("})";
 }
 
-template <class Closure>
-void write_samples(Writer& out, const Closure& closure, const Query& query)
+void write_samples(Writer& out, const AnyClosure& closure, const Query& query)
 {
-    using Real = typename Closure::Real;
-    const auto prepared = closure.prepare(rounded<Real>(query.wo));
     if (query.u)
     {
-        write_sample(out, prepared.sample({rounded_random<Real>(query.u->x),
-                                           rounded_random<Real>(query.u->y)}));
+        write_sample(out, closure.sample(*query.u));
         return;
     }
-    RandomNumbers random(query.seed);
+    SampleNumbers numbers(query.closure, query.seed);
     out << R"({"samples":[)";
     for (std::uint64_t i = 0; i < query.n; ++i)
     {
-        const Real u = random.template next<Real>(), v = random.template next<Real>();
         if (i > 0) out << ",";
-        write_sample(out, prepared.sample({u, v}));
+        write_sample(out, closure.sample(numbers.next()));
     }
     out << "]}";
 }
 
-void write_albedo(Writer& out, const Query& query)
+void write_eval(Writer& out, fmt::memory_buffer& buffer, const AnyClosure& closure,
+                const Query& query)
 {
-    const MeasuredAlbedo albedo = measured_albedo(query.closure, query.wo, query.albedo);
+    if (!query.closure.is_stochastic() || query.u)
+    {
+        out << R"({"value":)" << closure.eval(query.wi, query.u.value_or(Imath::V3d(0.0))) << "}";
+        return;
+    }
+    const MeasuredValue value =
+        measured_value(closure, query.closure, query.wi, query.n, query.seed);
+    in_full(buffer) << R"({"value":)" << value.mean << R"(,"stderr":)" << value.error << "}";
+}
+
+void write_albedo(fmt::memory_buffer& buffer, AnyClosure& closure, const Query& query)
+{
+    Writer out = in_full(buffer);
+    const MeasuredAlbedo albedo = measured_albedo(closure, query.closure, query.wo, query.albedo);
     out << R"({"reflect":)" << albedo.reflect << R"(,"transmit":)" << albedo.transmit
         << R"(,"stderr":)";
     if (albedo.error)
@@ -110,38 +119,36 @@ void write_albedo(Writer& out, const Query& query)
     out << R"(,"how":")" << albedo_methods[static_cast<std::size_t>(query.albedo.how)] << R"("})";
 }
 
-template <class Closure>
-void write_gain(Writer& out, const Closure& closure, const Query& query)
+void write_gain(Writer& out, const AnyClosure& closure, const Query& query)
 {
-    using Real = typename Closure::Real;
-    const Vec3<Real> wo = rounded<Real>(query.wo);
-    // Below the horizon the lobe is black, and a gain has nothing to act on.
-    const bool above = detail::is_above_horizon(wo);
-    out << R"({"gain":)" << (above ? closure.gain().at(wo) : Color3<Real>(Real(1)))
-        << R"(,"form":")" << (query.closure.method == Method::none ? "none" : "gain(wo)")
-        << R"("})";
+    const GainAnswer answer = closure.gain();
+    const auto* method = std::get_if<Method>(&query.closure.method);
+    out << R"({"gain":)" << answer.gain << R"(,"form":")"
+        << (method && *method == Method::none ? "none" : answer.form) << R"("})";
 }
 
-template <class Closure>
-void write_fresnel(Writer& out, const Closure& closure, const Query& query)
+// mu below 0 is seen from inside: only a dielectric has that.
+template <class Real>
+void write_fresnel(Writer& out, const Query& query)
 {
-    using Real = typename Closure::Real;
-    const auto& fresnel = closure.lobe().fresnel();
-    out << R"({"value":)" << fresnel.at(static_cast<Real>(query.mu)) << R"(,"average":)"
-        << fresnel.average() << "}";
+    FresnelSpec spec = query.closure.fresnel;
+    if (auto* d = std::get_if<DielectricParameters>(&spec))
+        if (query.mu < 0) d->eta = 1 / d->eta;
+    with_fresnel<Real>(spec, [&](const auto& fresnel) {
+        const auto value = fresnel.at(static_cast<Real>(std::abs(query.mu)));
+        out << R"({"value":)" << value << R"(,"average":)" << fresnel.average() << "}";
+    });
 }
 
-template <class Closure>
-void write_ndf(Writer& out, const Closure& closure, const Query& query)
+template <class Distribution>
+void write_ndf(Writer& out, const Distribution& distribution, const Query& query)
 {
-    using Real = typename Closure::Real;
-    const auto& distribution = closure.lobe().distribution();
+    using Real = typename Distribution::Real;
     if (distribution.is_delta())
-        throw BadInput(
-            fmt::format("alpha {} makes a mirror, whose D is no function; accepted: "
-                        "above {} on one axis",
-                        std::max(query.closure.alpha_x, query.closure.alpha_y),
-                        std::decay_t<decltype(distribution)>::delta_alpha));
+        throw BadInput(fmt::format(
+            "alpha {} makes a mirror, whose D is no function; accepted: "
+            "above {} on one axis",
+            std::max(query.closure.alpha_x, query.closure.alpha_y), Distribution::delta_alpha));
     const Vec3<Real> wo = rounded<Real>(query.wo), m = rounded<Real>(query.wm);
     if (!detail::is_above_horizon(wo))
         throw BadInput("'wo' is not above the surface, where lambda is defined");
@@ -149,47 +156,56 @@ void write_ndf(Writer& out, const Closure& closure, const Query& query)
     // Microfacet normals lie above the surface, visible ones face wo.
     const Real D = m.z > 0 ? distribution.D(m) : Real(0);
     const Real facing = std::max(detail::dot(wo, m), Real(0));
-    out << R"({"D":)" << D << R"(,"lambda":)" << distribution.lambda(wo) << R"(,"G1":)"
-        << distribution.G1(wo) << R"(,"D_visible":)" << facing * D / distribution.projected_area(wo)
-        << "}";
+    out << R"({"D":)" << double(D) << R"(,"lambda":)" << double(distribution.lambda(wo))
+        << R"(,"G1":)" << double(distribution.G1(wo)) << R"(,"D_visible":)"
+        << double(facing * D / distribution.projected_area(wo)) << "}";
 }
 
-template <class Closure>
-void write_answer_of(Writer& out, const Closure& closure, const Query& query)
+// What needs no closure.
+template <class Real>
+void write_part(Writer& out, const Query& query)
 {
-    using Real = typename Closure::Real;
-    switch (query.op)
-    {
-        case Op::eval:
-            out << R"({"value":)" << closure.eval(rounded<Real>(query.wo), rounded<Real>(query.wi))
-                << "}";
-            break;
-        case Op::pdf:
-            out << R"({"pdf":)" << closure.pdf(rounded<Real>(query.wo), rounded<Real>(query.wi))
-                << "}";
-            break;
-        case Op::sample: write_samples(out, closure, query); break;
-        case Op::albedo: write_albedo(out, query); break;
-        case Op::gain: write_gain(out, closure, query); break;
-        case Op::fresnel: write_fresnel(out, closure, query); break;
-        case Op::ndf: write_ndf(out, closure, query); break;
-    }
+    if (query.op == Op::fresnel)
+        write_fresnel<Real>(out, query);
+    else
+        with_distribution<Real>(query.closure, [&](const auto& d) { write_ndf(out, d, query); });
 }
 
 }  // namespace
 
 void write_answer(const Query& query, fmt::memory_buffer& out)
 {
-    Writer writer(out);
-    with_closure(query.closure,
-                 [&](const auto& closure) { write_answer_of(writer, closure, query); });
+    Writer writer(out, query.closure.precision);
+    if (query.op == Op::fresnel || query.op == Op::ndf)
+    {
+        if (query.op == Op::fresnel && query.closure.lobe == Lobe::sheen)
+            throw BadInput("the closure sheen has no Fresnel term");
+        if (query.closure.precision == Precision::twice)
+            write_part<double>(writer, query);
+        else
+            write_part<float>(writer, query);
+        return;
+    }
+    const bool look_up = query.op == Op::albedo && query.albedo.how == AlbedoMethod::table;
+    const auto closure = make_closure(query.closure, look_up);
+    closure->prepare(query.wo);
+    switch (query.op)
+    {
+        case Op::eval: write_eval(writer, out, *closure, query); break;
+        case Op::pdf: writer << R"({"pdf":)" << closure->pdf(query.wi) << "}"; break;
+        case Op::sample: write_samples(writer, *closure, query); break;
+        case Op::albedo: write_albedo(out, *closure, query); break;
+        case Op::gain: write_gain(writer, *closure, query); break;
+        case Op::fresnel:
+        case Op::ndf: break;
+    }
 }
 
 void write_error(std::string_view message, fmt::memory_buffer& out)
 {
     // A message may quote a part of a character, or bytes that are none.
     const std::string quoted = Json(message).dump(-1, ' ', false, Json::error_handler_t::replace);
-    Writer(out) << R"({"error": )" << quoted << "}";
+    in_full(out) << R"({"error": )" << quoted << "}";
 }
 
 bool answer_line(std::string_view line, fmt::memory_buffer& out)

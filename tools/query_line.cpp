@@ -91,24 +91,35 @@ Imath::V3d needed_direction(Fields& fields, std::string_view name)
     return *w;
 }
 
-void read_random_numbers(Fields& fields, Query& query)
+// `otherwise`: how many times where nothing is said; 0 if it has to be.
+void read_random_numbers(Fields& fields, Query& query, std::size_t numbers, std::uint64_t most,
+                         std::uint64_t otherwise)
 {
-    query.u = fields.two("u", {0, 1, true});
-    const auto n = fields.count("n", 1, most_listed_samples);
+    query.u = fields.numbers("u", numbers, {0, 1, true});
+    const auto n = fields.count("n", 1, most);
     const auto seed = fields.count("seed", 0, UINT64_MAX);
     if (query.u && (n || seed))
         throw BadInput("'u' is given, and 'n' or 'seed', too; accepted: 'u', or 'n' with 'seed'");
-    if (!query.u && !n) fields.missing("'u' (or 'n')");
-    query.n = n.value_or(1);
+    if (!query.u && !n && otherwise == 0) fields.missing("'u' (or 'n')");
+    query.n = n.value_or(otherwise);
     query.seed = seed.value_or(0);
 }
 
-AlbedoSettings read_albedo_settings(Fields& fields)
+AlbedoSettings read_albedo_settings(Fields& fields, const ClosureSpec& closure)
 {
     AlbedoSettings settings;
+    if (closure.is_stochastic())
+    {
+        settings.how = AlbedoMethod::monte_carlo;
+        if (const auto order = fields.count("order", 1, most_bounces))
+            settings.order = static_cast<int>(*order);
+    }
+    else
+        fields.reject("order", "it belongs to the method walk");
     if (const auto how = fields.text("how"))
         settings.how =
             static_cast<AlbedoMethod>(choose("how", *how, albedo_methods, nothing_planned));
+    require_possible(closure, settings);
     if (settings.how == AlbedoMethod::monte_carlo)
     {
         settings.samples = fields.count("n", 2, most_averaged_samples).value_or(settings.samples);
@@ -125,19 +136,24 @@ void read_operands(Fields& fields, Query& query)
         case Op::pdf:
             query.wo = read_wo(fields);
             query.wi = needed_direction(fields, "wi");
+            if (query.op == Op::eval && query.closure.is_stochastic())
+                read_random_numbers(fields, query, 3, most_averaged_samples, default_estimates);
             break;
         case Op::sample:
             query.wo = read_wo(fields);
-            read_random_numbers(fields, query);
+            read_random_numbers(fields, query, query.closure.random_numbers(), most_listed_samples,
+                                0);
             break;
         case Op::albedo:
             query.wo = read_wo(fields);
-            query.albedo = read_albedo_settings(fields);
+            query.albedo = read_albedo_settings(fields, query.closure);
             break;
         case Op::gain: query.wo = read_wo(fields); break;
         case Op::fresnel: {
             // Below the surface there is nothing but a dielectric's other side.
-            const auto mu = fields.number("mu", unit_range);
+            const bool two_sides =
+                std::holds_alternative<DielectricParameters>(query.closure.fresnel);
+            const auto mu = fields.number("mu", two_sides ? Range{-1, 1} : unit_range);
             if (!mu) fields.missing("'mu'");
             query.mu = *mu;
             break;
@@ -160,7 +176,7 @@ Query read_query(std::string_view line)
     if (!op) fields.missing("'op'");
     query.op = static_cast<Op>(choose("op", *op, ops, nothing_planned));
 
-    fields.reject("order", "it belongs to the method walk, not supported yet");
+    if (query.op != Op::albedo) fields.reject("order", "it belongs to the op albedo");
     const bool closure_needed =
         query.op != Op::ndf && !(query.op == Op::fresnel && fields.has("fresnel"));
     query.closure = read_closure_spec(fields, closure_needed);

@@ -210,6 +210,10 @@ void check_materials(const Plan& plan)
         {
             refuse("--method", std::string(shaders::name(method)), e.what());
         }
+        catch (const std::runtime_error& e)
+        {
+            refuse("--method", std::string(shaders::name(method)), e.what());
+        }
     }
 }
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright Contributors to the Regain project
 
-#include <regain/luts/builtin.h>
+#include <regain/luts/library.h>
 #include <regain/shaders/microfacet_material.h>
+
+#include <string>
 
 REGAIN_NAMESPACE_BEGIN
 namespace shaders {
@@ -76,7 +78,46 @@ MicrofacetMaterial::MicrofacetMaterial(const SchlickMetal& metal)
       method(metal.method)
 {}
 
-void MicrofacetMaterial::bind_tables() { _tables = luts::ggx_tables(); }
+void MicrofacetMaterial::bind_tables(bool for_albedo)
+{
+    const auto refuse = [this](const std::string& why) {
+        throw std::invalid_argument("the method " + std::string(name(method)) + " " + why);
+    };
+    const auto* gain = std::get_if<Method>(&method);
+    const bool is_walk = std::holds_alternative<RandomWalk>(method);
+    if (std::holds_alternative<SheenSurface>(surface))
+    {
+        if (!gain || *gain != Method::none)
+            refuse("does not go with sheen, which has no microfacets; accepted: none");
+        return;
+    }
+    const auto* interface = std::get_if<InterfaceSurface>(&surface);
+    if (interface)
+    {
+        const bool walks = !interface->thin_walled && interface->mode == ScatterMode::RT;
+        const bool adds = std::holds_alternative<KullaContyForm>(method);
+        if (is_walk && !walks)
+            refuse("takes a dielectric of scatter mode RT that is not thin-walled");
+        if (interface->thin_walled && adds)
+            refuse("does not go with thin-walled dielectrics; accepted: none, normalise, turquin");
+        if (!is_walk && !adds && !(gain && DielectricGain<double>::supports(*gain)))
+            refuse(
+                "does not go with dielectrics; accepted: none, normalise, turquin, kulla-conty, "
+                "kulla-conty-series, walk");
+    }
+    _tables = {};
+    _interface_tables = {};
+    const bool gains = !(is_walk || std::holds_alternative<BurleySheen>(method) ||
+                         (gain && *gain == Method::none));
+    // Those of GGX mirrors cost nothing; others are files.
+    if (!gains && !for_albedo && distribution != DistributionKind::ggx) return;
+    const std::string names(name(distribution));
+    if (!interface || interface->thin_walled ||
+        (interface->mode == ScatterMode::R && !std::holds_alternative<KullaContyForm>(method)))
+        _tables = luts::microfacet_tables(names);
+    else if (gains || (for_albedo && !is_walk))
+        _interface_tables = luts::dielectric_tables(names, interface->shadowing, gamma);
+}
 
 }  // namespace shaders
 REGAIN_NAMESPACE_END

@@ -7,7 +7,14 @@
 #include "../support/interfaces.h"
 #include "../support/hosts.h"
 
+#include <regain/closures/dielectric_walk.h>
+#include <regain/closures/kulla_conty.h>
+#include <regain/closures/thin_dielectric.h>
+#include <regain/closures/walk.h>
+
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 using namespace regain;
 using namespace regain::tests;
@@ -457,6 +464,127 @@ TYPED_TEST(InterfaceInClarisse, estimates_depend_on_the_directions_alone)
         mean += a.x / n;  // value over pdf: twice the number drawn
     }
     EXPECT_NEAR(mean, 1, 4.5 / std::sqrt(3.0 * n));
+}
+
+// The library's own closures, of every kind that the adapters tell apart.
+const GGX<float> ggx(0.5f, 0.3f);
+const Dielectric<GGX<float>> rough_glass(ggx, eta);
+const ThinDielectric<GGX<float>> sheet(ggx, eta);
+const DielectricWalk<GGX<float>> walked_glass(ggx, eta);
+const Walk<GGX<float>, ConstantFresnel<float>> walked_metal(ggx, ConstantFresnel<float>());
+const auto added_metal =
+    kulla_conty(white<float>(0.5, 0.5), KullaContyForm::printed, luts::ggx_tables());
+
+// Of every pair of directions both hosts are told the same, and what generateSample says is what
+// evaluateSample does.
+template <class Closure>
+void expect_hosts_agree(const Closure& closure, bool estimated = false)
+{
+    constexpr int n = 128;
+    Grid grid(closure, n);
+    Point point_host(closure);
+    Random random(8);
+    for (auto& V : grid.host.V) V = anywhere(random);
+    const Answers g = grid.generate(), e = grid.evaluate(g.L);
+    const std::vector<rm::Vec3> V = grid.host.V;
+    grid.host.V = g.L;
+    grid.host.ctx.Vn = grid.host.V.data();
+    const Answers back = grid.evaluate(V);
+    int valid = 0;
+    for (int i = 0; i < n; ++i)
+    {
+        if (!g.sampled[i].valid || g.sampled[i].discrete) continue;
+        ++valid;
+        // Between grazing directions float has few digits.
+        if (std::abs(V[i].z) < 0.05f || std::abs(g.L[i].z) < 0.05f) continue;
+        // A walk goes where its pdf has nothing, and its value is there or not.
+        if (estimated && std::min({g.fwd[i], g.rev[i], e.fwd[i], back.fwd[i]}) < 1e-6f) continue;
+        EXPECT_NEAR(g.fwd[i] / e.fwd[i], 1, 5e-3);
+        EXPECT_NEAR(back.rev[i] / g.fwd[i], 1, 5e-3);
+        EXPECT_NEAR(back.fwd[i] / g.rev[i], 1, 5e-3);
+        EXPECT_TRUE(estimated || std::abs(g.total[i].x / e.total[i].x - 1) < 5e-3f);
+
+        ASSERT_EQ(point_host.lobes(V[i]), 1);
+        const auto& f = point_host.list[0];
+        const auto local = [&](const rm::Vec3& w) {
+            return rm::Vec3(w.dot(f.x), w.dot(f.y), w.dot(f.z));
+        };
+        cl::color<float> weight;
+        float reverse;
+        const float pdf = f.lobe->evaluate(local(V[i]), local(g.L[i]), weight, &reverse);
+        EXPECT_NEAR(pdf / e.fwd[i], 1, 1e-3);
+        EXPECT_NEAR(reverse / e.rev[i], 1, 1e-3);
+        EXPECT_TRUE(estimated || std::abs(weight.x * pdf / e.total[i].x - 1) < 1e-3f);
+    }
+    EXPECT_GT(valid, n / 4);
+}
+
+TEST(Interfaces, both_hosts_are_told_the_same)
+{
+    expect_hosts_agree(rough_glass);
+    expect_hosts_agree(sheet);
+    expect_hosts_agree(added_metal);
+    expect_hosts_agree(walked_glass, true);
+    expect_hosts_agree(walked_metal, true);
+}
+
+// By generate and by evaluate, through both hosts; the albedo of a walk is 1 on either side.
+template <class Closure>
+void expect_energy(const Closure& closure, double side, bool two_media, double expected)
+{
+    constexpr int n = 40000;
+    Grid grid(closure, n);
+    Point host(closure);
+    const auto V = direction<float>(side, 1);
+    std::fill(grid.host.V.begin(), grid.host.V.end(), V);
+    ASSERT_EQ(host.lobes(V), 1);
+    const auto& f = host.list[0];
+    const auto local = [&](const rm::Vec3& w) {
+        return rm::Vec3(w.dot(f.x), w.dot(f.y), w.dot(f.z));
+    };
+    Random random(9);
+    std::vector<rm::Vec3> everywhere(n);
+    for (auto& L : everywhere) L = anywhere(random);
+    const Answers g = grid.generate(), e = grid.evaluate(everywhere);
+    double sums[4] = {0, 0, 0, 0}, squares[4] = {0, 0, 0, 0};
+    const auto add = [&](int k, double x) {
+        sums[k] += x / n;
+        squares[k] += x * x / n;
+    };
+    for (int i = 0; i < n; ++i)
+    {
+        const auto energy = [&](const rm::Vec3& L, double x) {
+            return two_media ? x / factor(V, L) : x;
+        };
+        add(0, g.sampled[i].valid ? energy(g.L[i], g.total[i].x / g.fwd[i]) : 0);
+        add(1, energy(everywhere[i], e.total[i].x * 4 * M_PI));
+        rm::Vec3 wo;
+        cl::color<float> weight;
+        const float u = random.unit<float>(), v = random.unit<float>(), w = random.unit<float>();
+        const bool valid = f.lobe->sample(local(V), u, v, w, wo, weight, nullptr) > 0;
+        add(2, valid ? energy(f.x * wo.x + f.y * wo.y + f.z * wo.z, weight.x) : 0);
+        const float pdf = f.lobe->evaluate(local(V), local(everywhere[i]), weight, nullptr);
+        add(3, energy(everywhere[i], weight.x * pdf * 4 * M_PI));
+    }
+    for (int k = 0; k < 4; ++k)
+    {
+        const double error = std::sqrt(std::max(squares[k] - sums[k] * sums[k], 0.0) / n);
+        EXPECT_NEAR(sums[k], expected, 5 * error + 2e-3) << k << " from " << side;
+    }
+}
+
+TEST(Interfaces, furnace_through_both_hosts)
+{
+    for (const double side : {0.7, -0.7})
+    {
+        expect_energy(walked_glass, side, true, 1);
+        const auto a = rough_glass.albedo(direction<float>(side, 1));
+        expect_energy(rough_glass, side, true, a.reflect.x + a.transmit.x);
+        const auto b = sheet.albedo(direction<float>(side, 1));
+        expect_energy(sheet, side, false, b.reflect.x + b.transmit.x);
+    }
+    expect_energy(walked_metal, 0.7, false, 1);
+    expect_energy(added_metal, 0.7, false, 1);
 }
 
 }  // namespace

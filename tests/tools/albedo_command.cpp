@@ -39,6 +39,21 @@ TEST_F(AlbedoCommand, prints_a_table_with_errors)
     EXPECT_TRUE(says(o.lines()[3], "average"));
 }
 
+TEST_F(AlbedoCommand, lists_both_sides_of_a_dielectric)
+{
+    const auto o = run("albedo --eta 1.5 --alpha 0 --mu -0.5,1 --precision double --json");
+    ASSERT_EQ(o.code, 0) << o.err;
+    const json a = o.json();
+    EXPECT_EQ(a["closure"]["closure"], "dielectric");
+    // Beyond the critical angle everything is reflected; at normal incidence 4 %.
+    EXPECT_NEAR(a["directional"][0]["reflect"][0], 1, 1e-9);
+    EXPECT_NEAR(a["directional"][1]["reflect"][0], 0.04, 1e-9);
+    EXPECT_NEAR(a["directional"][1]["transmit"][0], 0.96, 1e-9);
+    // 1 - F_ss(1 / eta) = (1 - F_ss(eta)) / eta^2
+    EXPECT_NEAR(a["inside"]["transmit"][0].get<double>(),
+                a["average"]["transmit"][0].get<double>() / 2.25, 1e-3);
+}
+
 TEST_F(AlbedoCommand, f0_makes_the_closure_schlick_s)
 {
     const json a = run("albedo --f0 1,0.5,0.25 --f82 0.5 --alpha 0.5,0.25 --method turquin --json "
@@ -69,8 +84,13 @@ TEST_F(AlbedoCommand, bad_input_is_named_and_gives_exit_code_2)
              {"--mu nan", "--mu holds nan"},
              {"--alpha nan", "'alpha' is"},
              {"--strength inf", "'strength' is"},
-             {"--closure dielectric", "not supported yet"},
-             {"--distribution beckmann", "not supported yet"},
+             {"--closure translucent", "not supported yet"},
+             {"--distribution phong", "there is no distribution"},
+             {"--gamma 3", "'gamma' cannot be used"},
+             {"--distribution std --gamma 1.5", "'gamma' is 1.5"},
+             {"--thin-walled", "belongs to the closure dielectric"},
+             {"--order 2", "--order belongs to the method walk"},
+             {"--eta 0", "'eta' is 0"},
              {"--method kulla", "there is no method 'kulla'"},
              {"--how guess", "there is no how 'guess'"},
              {"--n-samples 1", "--n-samples is 1"},

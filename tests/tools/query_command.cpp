@@ -165,5 +165,5 @@ TEST_F(QueryCommand, help_has_examples_that_run)
         const auto o = run("query", help.out.substr(at, help.out.find('\'', at) - at));
         EXPECT_EQ(o.code, 0) << o.out;
     }
-    EXPECT_EQ(examples, 2);
+    EXPECT_EQ(examples, 3);
 }

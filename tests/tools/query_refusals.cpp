@@ -39,6 +39,11 @@ json schlick() { return {{"op", "fresnel"}, {"closure", "generalized_schlick"}, 
 json sample() { return {{"op", "sample"}, {"closure", "conductor"}, {"mu", 0.5}, {"u", {0, 0}}}; }
 json samples() { return {{"op", "sample"}, {"closure", "conductor"}, {"mu", 0.5}, {"n", 2}}; }
 json ndf() { return {{"op", "ndf"}, {"alpha", 0.5}, {"mu", 0.5}, {"wm", {0, 0, 1}}}; }
+json glass()
+{
+    return {{"op", "eval"}, {"closure", "dielectric"}, {"mu", 0.5}, {"wi", {0, 0, -1}}};
+}
+json sheen() { return {{"op", "eval"}, {"closure", "sheen"}, {"mu", 0.5}, {"wi", {0, 0, 1}}}; }
 json albedo() { return {{"op", "albedo"}, {"closure", "conductor"}, {"mu", 0.5}}; }
 
 struct Case
@@ -66,26 +71,67 @@ const json zero_to_one = {0.5, 0.5, 0.5};
 
 TEST(query_refusals, what_is_planned_is_named_as_not_supported_yet)
 {
-    for (const char* name : {"beckmann", "gtr", "std"})
-        EXPECT_EQ(refusal(changed(eval(), "distribution", name)),
-                  std::string("distribution '") + name + "' is not supported yet; accepted: ggx");
-    for (const char* name : {"dielectric", "sheen", "oren_nayar_diffuse", "burley_diffuse",
-                             "translucent", "layer", "mix", "add", "multiply"})
+    for (const char* name :
+         {"oren_nayar_diffuse", "burley_diffuse", "translucent", "layer", "mix", "add", "multiply"})
         EXPECT_EQ(refusal(changed(eval(), "closure", name)),
                   std::string("closure '") + name +
-                      "' is not supported yet; accepted: conductor, generalized_schlick");
-    for (const char* name : {"kulla-conty", "kulla-conty-series", "directional", "balanced", "tail",
-                             "walk", "burley-sheen"})
+                      "' is not supported yet; accepted: conductor, generalized_schlick, "
+                      "dielectric, sheen");
+    for (const char* name : {"directional", "balanced", "tail"})
         EXPECT_EQ(refusal(changed(eval(), "method", name)),
                   std::string("method '") + name +
                       "' is not supported yet; accepted: none, normalise, turquin, turquin-eq12, "
-                      "turquin-eq13, turquin-eq14, series");
-    check({{eval(), "scatter_mode", "RT", {"'RT' is not supported yet", "accepted: R"}},
-           {eval(), "fresnel", {{"eta", 1.5}}, {"'eta'", "dielectrics are not supported yet"}},
-           {schlick(), "fresnel", {{"eta", 1.5}}, {"'eta'", "F0"}},
-           {eval(), "gamma", 2, {"'gamma'", "gtr", "not supported yet"}},
-           {eval(), "transmission_shadowing", "beta", {"dielectric", "not supported yet"}},
-           {eval(), "order", 2, {"'order'", "walk"}}});
+                      "turquin-eq13, turquin-eq14, series, kulla-conty, kulla-conty-series, walk, "
+                      "burley-sheen");
+}
+
+TEST(query_refusals, what_belongs_to_another_closure)
+{
+    const std::string dielectric = "belongs to the closure dielectric";
+    check({{eval(), "scatter_mode", "RT", {"there is no scatter_mode", "accepted: R"}},
+           {eval(), "fresnel", {{"eta", 1.5}}, {"eta", dielectric}},
+           {eval(), "transmission_shadowing", "beta", {dielectric}},
+           {eval(), "thin_walled", true, {dielectric}},
+           {eval(), "gamma", 2, {"'gamma'", "gtr and std"}},
+           {eval(), "order", 2, {"'order'", "the op albedo"}},
+           {albedo(), "order", 2, {"'order'", "the method walk"}},
+           {glass(), "fresnel", {{"F0", zero_to_one}}, {"'fresnel' with eta"}},
+           {glass(), "scatter_mode", "TR", {"there is no scatter_mode 'TR'", "R, T, RT"}},
+           {glass(), "transmission_shadowing", "smith", {"correlated, beta"}},
+           {glass(), "ior", 0, {"'ior' is 0", "from 0.01 to 100"}},
+           {sheen(), "alpha", 0.5, {"'alpha'", "no microfacets"}},
+           {sheen(), "fresnel", {{"constant", zero_to_one}}, {"no microfacets"}}});
+}
+
+TEST(query_refusals, combinations_that_the_library_has_not)
+{
+    for (const char* method :
+         {"turquin-eq12", "turquin-eq13", "turquin-eq14", "series", "burley-sheen"})
+        check({{glass(), "method", method, {method, "does not go with dielectrics", "walk"}}});
+    for (const char* method : {"turquin", "kulla-conty", "walk"})
+        check({{sheen(), "method", method, {method, "does not go with sheen", "none"}}});
+    json walk = glass();
+    walk["method"] = "walk";
+    check({{walk, "scatter_mode", "R", {"walk takes a dielectric of scatter mode RT"}},
+           {walk, "transmission_shadowing", "correlated", {"walk needs", "beta"}},
+           {walk, "strength", 0.5, {"'strength' is 0.5", "0 or 1"}},
+           {walk, "n", 0, {"'n' is 0"}}});
+    json walked = albedo();
+    walked["method"] = "walk";
+    check({{walked, "how", "quadrature", {"quadrature", "monte-carlo, table"}},
+           {walked, "order", 0, {"'order' is 0"}}});
+    json gain{{"op", "gain"}, {"closure", "conductor"}, {"mu", 0.5}};
+    check({{gain, "method", "walk", {"walk replaces the lobe"}}});
+}
+
+TEST(query_refusals, ranges_of_gamma)
+{
+    json gtr = eval(), student = eval();
+    gtr["distribution"] = "gtr";
+    student["distribution"] = "std";
+    check({{gtr, "gamma", 0, {"'gamma' is 0", "to 10"}},
+           {gtr, "gamma", 10.5, {"'gamma' is 10.5", "to 10"}},
+           {student, "gamma", 1.5, {"'gamma' is 1.5", "from 1.51"}}});
 }
 
 TEST(query_refusals, names_that_do_not_exist)

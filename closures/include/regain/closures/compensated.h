@@ -44,7 +44,7 @@ public:
             _lobe.scale_by(_gain.at(_lobe.wo()));
         }
 
-        const Vec3<Real>& wo() const { return _lobe.wo(); }
+        decltype(auto) wo() const { return _lobe.wo(); }
         void scale_by(const Color& weight) { _lobe.scale_by(weight); }
 
         Color eval(const Vec3<Real>& wi) const

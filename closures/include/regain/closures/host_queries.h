@@ -17,7 +17,7 @@
 ///
 ///     distribution()    its microfacets, where it has some
 ///     eta()             where it is an interface between two media: index on the -z side over
-///                       index on the +z side
+///                       index on the +z side; not asked where thin_walled is a static constant
 ///     lobe()            a closure inside it, which is asked in its place
 ///     first(), second() the closures it is the sum of
 ///
@@ -46,6 +46,13 @@ struct HasEta : std::false_type
 {};
 template <class Closure>
 struct HasEta<Closure, std::void_t<decltype(std::declval<const Closure&>().eta())>> : std::true_type
+{};
+
+template <class Closure, class = void>
+struct IsThinWalled : std::false_type
+{};
+template <class Closure>
+struct IsThinWalled<Closure, std::void_t<decltype(Closure::thin_walled)>> : std::true_type
 {};
 
 template <class Closure, class = void>
@@ -91,7 +98,7 @@ decltype(auto) with_closure(const Material& material, Real strength, const Visit
 template <class Closure>
 typename Closure::Real relative_index(const Closure& closure)
 {
-    if constexpr (detail::HasEta<Closure>::value)
+    if constexpr (detail::HasEta<Closure>::value && !detail::IsThinWalled<Closure>::value)
         return closure.eta();
     else if constexpr (detail::HasLobe<Closure>::value)
         return relative_index(closure.lobe());
@@ -148,6 +155,10 @@ bool is_delta(const Closure& closure)
     else
         return false;
 }
+
+/// The density that hosts are told where a pdf that is not exact is 0 and the value is not: they
+/// divide by it.
+constexpr double least_pdf = 1e-12;
 
 /// The closure for a path that carries importance: what eval and sample say is then what the eye
 /// sees from wi. A gain that is not reciprocal is taken at the other end; all else is reciprocal.

@@ -79,7 +79,7 @@ public:
                 detail::sanitised(share, least_probability, 1 - least_probability, 0.5), Real(1));
         }
 
-        const Vec3<Real>& wo() const { return _first.wo(); }
+        decltype(auto) wo() const { return _first.wo(); }
         void scale_by(const Color& weight)
         {
             _first.scale_by(weight);

@@ -43,6 +43,7 @@ public:
     using Color = Color3<Real>;
     using Mirror = MicrofacetReflection<Distribution, ConstantFresnel<Real>>;
     static constexpr int random_numbers = 3;
+    static constexpr bool thin_walled = true;  ///< one medium is on both sides
 
     /// eta: index of the sheet over the index around it, in [1e-2, 1e2], clamped, NaN becomes 1.5.
     /// Tints in [0, 1] per channel, clamped, NaN becomes 0. `tables`, of this distribution, make

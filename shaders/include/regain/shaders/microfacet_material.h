@@ -22,6 +22,8 @@
 
 #include <regain/closures/beckmann.h>
 #include <regain/closures/conductor_fresnel.h>
+#include <regain/closures/dielectric_gain.h>
+#include <regain/closures/dielectric_kulla_conty.h>
 #include <regain/closures/dielectric_walk.h>
 #include <regain/closures/ggx.h>
 #include <regain/closures/gtr.h>
@@ -31,6 +33,7 @@
 #include <regain/closures/schlick_fresnel.h>
 #include <regain/closures/sheen.h>
 #include <regain/closures/std.h>
+#include <regain/closures/thin_dielectric.h>
 #include <regain/closures/walk.h>
 #include <regain/shaders/export.h>
 #include <regain/shaders/material.h>
@@ -66,7 +69,8 @@ struct InterfaceSurface
     double eta = 1.5;
     ScatterMode mode = ScatterMode::RT;
     TransmissionShadowing shadowing = TransmissionShadowing::correlated;
-    ColorD tint{1.0};  ///< of what is reflected and what is transmitted, in [0, 1]
+    bool thin_walled = false;  ///< a sheet: eta is its index over that around it
+    ColorD tint{1.0};          ///< of what is reflected and what is transmitted, in [0, 1]
 };
 
 /// Burley's sheen alone: it has no microfacets. color: linear; weight in [0, 1].
@@ -90,7 +94,7 @@ constexpr bool has_gamma(DistributionKind d)
     return d == DistributionKind::gtr || d == DistributionKind::std;
 }
 
-/// The random walk that replaces the lobe; walks that one eval takes.
+/// The random walk that replaces the lobe, at any strength but 0; walks that one eval takes.
 struct RandomWalk
 {
     int eval_samples = 1;
@@ -121,10 +125,11 @@ public:
 
     bool is_interface() const { return std::holds_alternative<InterfaceSurface>(surface); }
 
-    /// Looks up the tables that the closure needs; call it again after a change. Throws
+    /// Looks up the tables that the closure needs; call it again after a change. `for_albedo`:
+    /// those, too, without which nothing is wrong but albedo() integrates. Throws
     /// std::invalid_argument, which says what is wrong and what there is, where the library has no
     /// such combination, and std::runtime_error where a table is missing.
-    REGAIN_SHADERS_API void bind_tables();
+    REGAIN_SHADERS_API void bind_tables(bool for_albedo = false);
 
     /// visit(closure); strength of the compensation in [0, 1]. Visit answers one type.
     template <class Real, class Visit>
@@ -156,9 +161,19 @@ public:
             return visit(Sheen<Real>(Real(s->weight), Color(s->color)));
         const auto d = distribution_of();
         if (const auto* i = std::get_if<InterfaceSurface>(&surface))
-            return with_interface(Dielectric(d, Real(i->eta), i->mode, Color(i->tint),
-                                             Color(i->tint), i->shadowing, _interface_tables),
-                                  strength, visit);
+        {
+            const Real eta = Real(i->eta);
+            const Color tint(i->tint);
+            if (i->thin_walled)
+                return visit(compensated(ThinDielectric(d, eta, i->mode, tint, tint, _tables),
+                                         gain_method(), _tables, strength));
+            if (const auto* walk = random_walk(strength))
+                return visit(DielectricWalk(d, eta, tint, tint, walk->eval_samples));
+            const Dielectric lobe(d, eta, i->mode, tint, tint, i->shadowing, _interface_tables);
+            if (std::holds_alternative<KullaContyForm>(method))
+                return visit(kulla_conty(lobe, _interface_tables, strength));
+            return visit(compensated(lobe, gain_method(), _interface_tables, _tables, strength));
+        }
         if (const auto* c = std::get_if<ConductorSurface>(&surface))
             return with_reflection(
                 MicrofacetReflection(d, ConductorFresnel<Real>(Color(c->n), Color(c->k)), _tables),
@@ -184,19 +199,22 @@ private:
     {
         if (const auto* form = std::get_if<KullaContyForm>(&method))
             return visit(kulla_conty(lobe, *form, _tables, strength));
-        if (const auto* walk = std::get_if<RandomWalk>(&method))
+        if (const auto* walk = random_walk(strength))
             return visit(Walk(lobe.distribution(), lobe.fresnel(), walk->eval_samples, _tables));
         if (std::holds_alternative<BurleySheen>(method)) return visit(burley_sheen(lobe, strength));
-        return visit(compensated(lobe, std::get<Method>(method), _tables, strength));
+        return visit(compensated(lobe, gain_method(), _tables, strength));
     }
 
-    template <class Lobe, class Real, class Visit>
-    decltype(auto) with_interface(const Lobe& lobe, Real, const Visit& visit) const
+    // A lobe cannot be replaced by a part.
+    template <class Real>
+    const RandomWalk* random_walk(Real strength) const
     {
-        if (const auto* walk = std::get_if<RandomWalk>(&method))
-            return visit(DielectricWalk(lobe.distribution(), lobe.eta(), lobe.reflection_tint(),
-                                        lobe.transmission_tint(), walk->eval_samples));
-        return visit(lobe);
+        return strength > Real(0) ? std::get_if<RandomWalk>(&method) : nullptr;
+    }
+    Method gain_method() const
+    {
+        const auto* gain = std::get_if<Method>(&method);
+        return gain ? *gain : Method::none;
     }
 
     MicrofacetTables _tables;

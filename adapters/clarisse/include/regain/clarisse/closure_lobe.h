@@ -69,9 +69,11 @@ public:
     {
         if (is_singular() || !is_on_its_side(wo)) return none(weight, reverse_pdf);
         const Real pdf = with_known(wi, [&](const auto& p) {
-            const Real density = p.pdf(wo);
-            if (density > 0)
-                weight = value(p, wi, wo) * (radiance_factor(_closure, wi, wo) / density);
+            Real density = p.pdf(wo);
+            if (!(density > 0) && !stochastic) return density;
+            const color<Real> f = value(p, wi, wo);
+            if (!(density > 0) && f != color<Real>(Real(0))) density = Real(least_pdf);
+            if (density > 0) weight = f * (radiance_factor(_closure, wi, wo) / density);
             return density;
         });
         if (!(pdf > 0)) return none(weight, reverse_pdf);
@@ -90,6 +92,9 @@ public:
     Real ior() const override { return relative_index(_closure); }
 
 private:
+    static constexpr bool stochastic =
+        regain::detail::TakesNumbersInEval<typename Closure::Prepared, Real>::value;
+
     bool is_singular() const { return _kind == scatter::singular; }
 
     static Real none(color<Real>& weight, Real* reverse_pdf)
@@ -117,7 +122,7 @@ private:
     static color<Real> value(const Prepared& prepared, [[maybe_unused]] const vec3<Real>& wi,
                              const vec3<Real>& wo)
     {
-        if constexpr (regain::detail::TakesNumbersInEval<Prepared, Real>::value)
+        if constexpr (stochastic)
         {
             const auto u = RandomStream<Real>(wi).next3();
             return prepared.eval(wo, RandomStream<Real>(u + wo).next3());

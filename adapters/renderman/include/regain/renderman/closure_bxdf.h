@@ -287,11 +287,14 @@ private:
         const Vec3 wi = p.frame.to_local(Ln[at]);
         const Lobe asked = lobe((wi.z < 0) == (p.prepared.wo().z < 0), false);
         if (!mine.has(asked) || !is_on_its_side(p.frame, Ln[at], wi)) return;
-        const float pdf = p.prepared.pdf(wi);
-        if (pdf == 0) return;
+        float pdf = p.prepared.pdf(wi);
+        if (!stochastic && pdf == 0) return;
+        const Color3 value = regain::evaluate(p.prepared, wi, u);
+        if (pdf == 0 && value == Color3(0.0f)) return;
+        if (pdf == 0) pdf = static_cast<float>(least_pdf);
         Color3* slot = slots.open(weights, asked);
         if (!slot) return;
-        slot[at] = regain::evaluate(p.prepared, wi, u) * factor(p, wi);
+        slot[at] = value * factor(p, wi);
         fwdPdf[at] = pdf;
         revPdf[at] = reverse_pdf(p, wi);
         evaluated[at] = LobeSet(asked);

@@ -119,9 +119,9 @@ private:
                 // Nodes gather at both ends, where square roots begin.
                 const double y = _radius.x[i], r = a + width * y * y * (3 - 2 * y);
                 const double w = _radius.weight[i] * 6 * y * (1 - y) * width;
-                const V3d m = normal(r);
-                const double slope = m.z / (1 - r);
-                sum.add(_f(paths(m)), _alpha_x * _alpha_y * slope * slope * slope * r * w);
+                // m_z / (1 - r), without the quotient of two numbers that may be 0.
+                const double scale = 1 / V3d(dp * r, dq * r, 1 - r).length();
+                sum.add(_f(paths(normal(r))), _alpha_x * _alpha_y * scale * scale * scale * r * w);
             }
         }
         return sum;

@@ -82,7 +82,7 @@ MeasuredAlbedo by_quadrature(AnyClosure& closure, const ClosureSpec& spec, const
         return albedo;
     }
     const InterfaceIntegral both =
-        integrate_interface(wo, spec.interface.eta, ax, ay, std::max(nodes, coarse_nodes), eval);
+        integrate_interface(wo, spec.interface.eta, ax, ay, std::max(nodes, 48), eval);
     albedo.reflect += both.reflected;
     albedo.transmit += both.transmitted;
     return albedo;
@@ -118,25 +118,40 @@ Albedo<double> drawn(const AnyClosure& prepared, const Imath::V3d& u, std::optio
     return s.transmitted ? Albedo<double>{zero, s.weight} : Albedo<double>{s.weight, zero};
 }
 
-// 2 int E mu dmu over the cosine and the mean over the azimuth, by a rule of `nodes` cosines.
+// 2 int E mu dmu over the cosine and the mean over the azimuth, by a rule of `nodes` cosines on
+// either side of `edge`, about which the albedo bends; 0: there is none.
 template <class E>
-MeasuredAlbedo averaged(bool isotropic, bool below, int nodes, const E& albedo_at)
+MeasuredAlbedo averaged(bool isotropic, bool below, double edge, int nodes, const E& albedo_at)
 {
     const luts::QuadratureRule& rule = gauss_rule(nodes);
     // The lobe is symmetric about both axes, and smooth and periodic in the azimuth.
     const int azimuths = isotropic ? 1 : nodes / 2;
     const double quarter = std::acos(0.0), side = below ? -1 : 1;
     MeasuredAlbedo sum;
-    for (int k = 0; k < azimuths; ++k)
-        for (std::size_t i = 0; i < rule.x.size(); ++i)
+    const auto at = [&](double mu, double weight) {
+        for (int k = 0; k < azimuths; ++k)
         {
-            // mu = x^3 gathers cosines at grazing angles, where the albedo dips.
-            const double x = rule.x[i], mu = x * x * x;
             const double phi = isotropic ? 0 : quarter * (k + 0.5) / azimuths;
-            add(sum, albedo_at(direction_at(side * mu, phi)),
-                rule.weight[i] * 3 * x * x * 2 * mu / azimuths);
+            add(sum, albedo_at(direction_at(side * mu, phi)), weight * 2 * mu / azimuths);
         }
+    };
+    const double end = edge > 0 ? edge : 1;
+    for (std::size_t i = 0; i < rule.x.size(); ++i)
+    {
+        // mu = x^3 gathers cosines at grazing angles, where the albedo dips.
+        const double x = rule.x[i];
+        at(end * x * x * x, rule.weight[i] * 3 * x * x * end);
+        if (edge > 0) at(edge + (1 - edge) * x * x, rule.weight[i] * 2 * x * (1 - edge));
+    }
     return sum;
+}
+
+// The cosine below which an interface reflects everything, as seen from this side; 0 if none.
+double critical_cosine(const ClosureSpec& spec, bool below)
+{
+    if (spec.lobe != Lobe::dielectric || spec.interface.thin_walled) return 0;
+    const double eta = below ? 1 / spec.interface.eta : spec.interface.eta;
+    return eta < 1 ? std::sqrt((1 - eta) * (1 + eta)) : 0;
 }
 
 // Samples and values of transmitted light are wanted as energy.
@@ -209,15 +224,16 @@ MeasuredAlbedo measured_average_albedo(const ClosureSpec& given, const AlbedoSet
     const ClosureSpec spec = as_energy(given);
     const auto closure = make_closure(spec, settings.how == AlbedoMethod::table);
     const bool isotropic = !closure->traits().anisotropic;
+    const double edge = critical_cosine(spec, below);
     switch (settings.how)
     {
         case AlbedoMethod::table:
-            return averaged(isotropic, below, 32, [&](const Imath::V3d& wo) {
+            return averaged(isotropic, below, edge, 32, [&](const Imath::V3d& wo) {
                 return measured_albedo(*closure, spec, wo, settings);
             });
         case AlbedoMethod::quadrature: {
             const auto by = [&](int cosines, int nodes) {
-                return averaged(isotropic, below, cosines, [&](const Imath::V3d& wo) {
+                return averaged(isotropic, below, edge, cosines, [&](const Imath::V3d& wo) {
                     return by_quadrature(*closure, spec, wo, nodes);
                 });
             };

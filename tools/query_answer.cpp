@@ -187,7 +187,10 @@ void write_answer(const Query& query, fmt::memory_buffer& out)
         return;
     }
     const bool look_up = query.op == Op::albedo && query.albedo.how == AlbedoMethod::table;
-    const auto closure = make_closure(query.closure, look_up);
+    ClosureSpec spec = query.closure;
+    // Albedos are energies.
+    if (query.op == Op::albedo) spec.transport = Transport::importance;
+    const auto closure = make_closure(spec, look_up);
     closure->prepare(query.wo);
     switch (query.op)
     {

@@ -43,7 +43,9 @@ template <class Closure>
 class Grid
 {
 public:
-    Grid(const Closure& closure, int points) : host(points), _material{closure}, _points(points) {}
+    Grid(const Closure& closure, int points)
+        : host(points, std::size_t(points) * 2048 + 4096), _material{closure}, _points(points)
+    {}
 
     rm::Bxdf& bxdf()
     {

@@ -100,6 +100,26 @@ TEST_F(RenderCommand, WritesPicturesAndSaysHow)
     EXPECT_EQ(png->spec().width, 64);
 }
 
+TEST_F(RenderCommand, RendersGlassAndSaysSo)
+{
+    ASSERT_EQ(run({"-o",       file("a.exr"), "--size",         "32x32", "--spp",   "2",
+                   "--alpha",  "0.3",         "--material",     "glass", "--ior",   "1.33",
+                   "--object", "nested",      "--distribution", "gtr",   "--gamma", "1.5",
+                   "--method", "walk",        "--environment",  "white", "--quiet"}),
+              kDone)
+        << err;
+    for (const auto& [name, value] :
+         std::vector<std::pair<const char*, const char*>>{{"regain:material", "glass"},
+                                                          {"regain:ior", "1.33"},
+                                                          {"regain:object", "nested"},
+                                                          {"regain:distribution", "gtr"},
+                                                          {"regain:gamma", "1.5"},
+                                                          {"regain:method", "walk"},
+                                                          {"regain:environment", "white"},
+                                                          {"regain:bounces", "64"}})
+        EXPECT_EQ(attribute(file("a.exr"), name), value) << name;
+}
+
 TEST_F(RenderCommand, FilesDoNotDependOnThreads)
 {
     for (const std::string threads : {"1", "2"})
@@ -129,6 +149,13 @@ TEST_F(RenderCommand, RefusesBadInputBeforeItStarts)
          "17 values"},
         {{"--metal", "mithril"}, "--metal mithril: "},
         {{"--method", "magic"}, "--method magic: no such method; there are none"},
+        {{"--material", "jelly"}, "--material jelly: no such material"},
+        {{"--material", "glass", "--ior", "0"}, "--ior 0: takes"},
+        {{"--material", "glass", "--method", "series"}, "does not go with dielectrics"},
+        {{"--distribution", "phong"}, "--distribution phong: no such distribution"},
+        {{"--distribution", "std", "--gamma", "1.5"}, "--gamma 1.5: std takes"},
+        {{"--object", "teapot"}, "--object teapot: no such object"},
+        {{"--bounces", "5000"}, "--bounces 5000: takes"},
         {{"--host", "abacus"}, "--host abacus: no such host"},
         {{"--size", "0x10"}, "--size 0x10: takes WIDTHxHEIGHT"},
         {{"--size", "64x64x"}, "--size 64x64x: takes"},

@@ -42,8 +42,9 @@ Figure make_figure1(const Request& request)
 {
     Figure figure;
     figure.name = "1";
-    figure.title = "increasingly rough GGX gold; single scattering above, method turquin below; "
-                   "alpha 0.05, 0.2, 0.4, 0.6, 0.8, 1";
+    figure.title =
+        "increasingly rough GGX gold; single scattering above, method turquin below; "
+        "alpha 0.05, 0.2, 0.4, 0.6, 0.8, 1";
     std::vector<Picture> rows;
     for (const Method method : {Method::none, Method::turquin})
     {
@@ -82,13 +83,13 @@ Figure make_figure1(const Request& request)
                            "{:.2f} to {:.2f}.",
                            dark.y, bright.y, saturation(dark), saturation(bright)),
                bright.y > 1.2 * dark.y && saturation(bright) > saturation(dark)));
-    figure.findings.push_back(tested(
-        "A more uniform gradation over roughness.",
-        fmt::format("From alpha 0.05 to 1 red falls by {:.0f} % without and {:.0f} % with "
-                    "compensation.",
-                    100 * (1 - none.back().x / none.front().x),
-                    100 * (1 - ours.back().x / ours.front().x)),
-        ours.back().x / ours.front().x > none.back().x / none.front().x));
+    figure.findings.push_back(
+        tested("A more uniform gradation over roughness.",
+               fmt::format("From alpha 0.05 to 1 red falls by {:.0f} % without and {:.0f} % with "
+                           "compensation.",
+                           100 * (1 - none.back().x / none.front().x),
+                           100 * (1 - ours.back().x / ours.front().x)),
+               ours.back().x / ours.front().x > none.back().x / none.front().x));
     return figure;
 }
 

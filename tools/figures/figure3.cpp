@@ -15,9 +15,9 @@
 namespace regain::tools::figures {
 namespace {
 
-constexpr double base = 0.18;
+constexpr double base = 0.05;
 
-/// Cloth: a grey base and sheen.
+/// Cloth: a dark base, on which it shows, and sheen.
 struct Cloth
 {
     double weight;
@@ -37,7 +37,7 @@ Figure make_figure3(const Request& request)
     constexpr int objects = 5;
     Figure figure;
     figure.name = "3";
-    figure.title = "sheen 0, 0.25, 0.5, 0.75, 1 over a grey base, as in Burley 2015";
+    figure.title = "sheen 0, 0.25, 0.5, 0.75, 1 over a dark base, as in Burley 2015";
     Cell cell;
     cell.layout.objects = objects;
     cell.object = [](int i) {
@@ -54,10 +54,10 @@ Figure make_figure3(const Request& request)
         std::vector<std::string> row{fmt::format("{}", mu)};
         for (const double weight : {0.0, 0.5, 1.0})
         {
-            const double E = sampled_energy(Cloth{weight}.closure(1.0).prepare(
-                                                at_angle<double>(mu)),
-                                            n, request.seed)
-                                 .reflect.x;
+            const double E =
+                sampled_energy(Cloth{weight}.closure(1.0).prepare(at_angle<double>(mu)), n,
+                               request.seed)
+                    .reflect.x;
             row.push_back(fmt::format("{:.4f}", E));
             if (weight == 1.0 && mu == 0.02) added_grazing = E - base;
             if (weight == 1.0 && mu == 1.0) added_normal = E - base;
@@ -65,12 +65,12 @@ Figure make_figure3(const Request& request)
         table.rows.push_back(row);
     }
     figure.tables.push_back(table);
-    figure.findings.push_back(tested(
-        "Sheen adds grazing reflection, with the Schlick profile.",
-        fmt::format("Full sheen adds {:.4f} to the albedo at mu = 0.02 and {:.4f} at normal "
-                    "incidence.",
-                    added_grazing, added_normal),
-        added_grazing > 10 * added_normal));
+    figure.findings.push_back(
+        tested("Sheen adds grazing reflection, with the Schlick profile.",
+               fmt::format("Full sheen adds {:.4f} to the albedo at mu = 0.02 and {:.4f} at normal "
+                           "incidence.",
+                           added_grazing, added_normal),
+               added_grazing > 10 * added_normal));
     figure.findings.push_back(tested(
         "It does not follow roughness, so it has to be adjusted whenever that is edited.",
         "The lobe has no roughness at all: the same energy is added whatever the base loses. A "

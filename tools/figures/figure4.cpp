@@ -27,7 +27,7 @@ using Imath::V2d;
 
 constexpr int orders = 3;  // the last is "third and later"
 constexpr int directions = 60;
-constexpr double wedge = 0.2;  // radians to each side of the plane of incidence
+constexpr double slab = 0.1;  // |y| of the directions that count as in the plane of incidence
 
 struct Lobes
 {
@@ -53,16 +53,12 @@ Lobes walked(const Distribution& distribution, double mu, std::uint64_t n, std::
             static_cast<std::size_t>(std::min(static_cast<int>(path.bounces), orders) - 1);
         const auto& w = path.wi;
         lobes.histogram[order][histogram_bin(Imath::V3d(w))] += 1 / double(n);
-        // The angle from the horizon on the side of wo, 0, over the normal to the other horizon.
-        const double across = std::abs(std::atan2(double(w.y), std::abs(double(w.x))));
-        if (across > wedge) continue;
+        if (std::abs(double(w.y)) > slab) continue;
+        // About the y axis: solid angle is dy dtheta.
         const double theta = std::atan2(double(w.z), double(w.x));
         const auto bin =
             static_cast<std::size_t>(std::min(theta / pi * directions, directions - 1.0));
-        // Solid angle of a wedge: 2 wedge times the difference of cosines from the normal.
-        const double a = pi * double(bin) / directions, b = pi * double(bin + 1) / directions;
-        const double area = 2 * wedge * std::abs(std::sin(b) - std::sin(a));
-        lobes.slice[order][bin] += 1 / (double(n) * std::max(area, 1e-3));
+        lobes.slice[order][bin] += directions / (double(n) * 2 * slab * pi);
     }
     return lobes;
 }

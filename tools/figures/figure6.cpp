@@ -29,8 +29,9 @@ Figure make_figure6(const Request& request)
     constexpr double alpha = 0.8, mu = 0.7;
     Figure figure;
     figure.name = "6";
-    figure.title = "rough gold (alpha 0.8): no compensation, energy alone (normalise), with F_ms "
-                   "(turquin)";
+    figure.title =
+        "rough gold (alpha 0.8): no compensation, energy alone (normalise), with F_ms "
+        "(turquin)";
     Cell cell;
     cell.layout.objects = 3;
     for (const Method method : {Method::none, Method::normalise, Method::turquin})
@@ -50,8 +51,7 @@ Figure make_figure6(const Request& request)
                     "alone, {:.3f} with F_ms; the random walk has {:.3f}.",
                     none, plain, tinted, walk),
         tinted > plain + 0.01));
-    figure.numbers = {
-        {"none", none}, {"normalise", plain}, {"turquin", tinted}, {"walk", walk}};
+    figure.numbers = {{"none", none}, {"normalise", plain}, {"turquin", tinted}, {"walk", walk}};
     return figure;
 }
 
@@ -92,13 +92,13 @@ Figure make_figure8(const Request& request)
         table.rows.push_back(row);
     }
     figure.tables.push_back(table);
-    figure.findings.push_back(
-        tested("The effect of the compensation on glass is quite noticeable, maybe more so than "
-               "with conductors.",
-               fmt::format("One interface loses up to {:.1f} % without, and light meets two or more "
-                           "on its way; compensated, R + T is within {:.4f} of 1.",
-                           100 * lost, worst),
-               lost > 0.05 && worst < 5e-3));
+    figure.findings.push_back(tested(
+        "The effect of the compensation on glass is quite noticeable, maybe more so than "
+        "with conductors.",
+        fmt::format("One interface loses up to {:.1f} % without, and light meets two or more "
+                    "on its way; compensated, R + T is within {:.4f} of 1.",
+                    100 * lost, worst),
+        lost > 0.05 && worst < 5e-3));
     figure.numbers = {{"lost_worst", lost}, {"compensated_worst", worst}};
     return figure;
 }

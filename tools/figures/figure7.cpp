@@ -51,10 +51,11 @@ void plot_tint(const Request& request, Figure& figure)
                                      std::abs(E_avg - 0.4) < 0.02));
     figure.findings.push_back(tested(
         "F_ms of Eq. 7 gets close to F_ss^2; F_ss^2 would be slightly more saturated.",
-        fmt::format("The two differ by up to {:.3f}; the square is the darker of the two, so the more "
-                    "saturated, up to F_ss = {:.2f}. The series that gives k bounces k factors of "
-                    "F_ss stays below both, {:.3f} from the square at most.",
-                    off_printed, crossing, off_series),
+        fmt::format(
+            "The two differ by up to {:.3f}; the square is the darker of the two, so the more "
+            "saturated, up to F_ss = {:.2f}. The series that gives k bounces k factors of "
+            "F_ss stays below both, {:.3f} from the square at most.",
+            off_printed, crossing, off_series),
         off_printed < 0.15));
     figure.numbers["left"] = {{"E_avg_alpha_1", E_avg},
                               {"largest_distance_eq7", off_printed},

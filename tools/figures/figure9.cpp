@@ -19,7 +19,7 @@ constexpr double roughnesses[] = {0.4, 0.7, 1.0};
 
 struct Comparison
 {
-    double none_off = 0, ours_off = 0;                       // root mean square from the walk
+    double none_off = 0, ours_off = 0;  // root mean square from the walk
     double none_seconds = 0, ours_seconds = 0, walk_seconds = 0;
     Table table;
 };
@@ -29,11 +29,12 @@ Comparison compared(const Request& request, Figure& figure, const char* what, bo
 {
     const Compensation methods[] = {Method::none, Method::turquin, shaders::RandomWalk{}};
     Comparison c;
-    c.table = {fmt::format("{}: difference from the walk, root mean square over pixels (that of two "
-                           "noisy pictures), and seconds",
-                           what),
-               {"alpha", "none", "turquin", "seconds: none", "turquin", "walk"},
-               {}};
+    c.table = {
+        fmt::format("{}: difference from the walk, root mean square over pixels (that of two "
+                    "noisy pictures), and seconds",
+                    what),
+        {"alpha", "none", "turquin", "seconds: none", "turquin", "walk"},
+        {}};
     std::vector<Picture> cells;
     for (const double alpha : roughnesses)
     {
@@ -76,8 +77,9 @@ Figure make_figure9(const Request& request)
 {
     Figure figure;
     figure.name = "9";
-    figure.title = "rough GGX reflection, then transmission; left to right no compensation, "
-                   "turquin, random walk; top to bottom alpha 0.4, 0.7, 1";
+    figure.title =
+        "rough GGX reflection, then transmission; left to right no compensation, "
+        "turquin, random walk; top to bottom alpha 0.4, 0.7, 1";
     const Comparison metal = compared(request, figure, "reflection", false, gold);
     const Comparison clear = compared(request, figure, "transmission", true, glass);
     figure.findings.push_back(

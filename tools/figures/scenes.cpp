@@ -53,10 +53,10 @@ CellPicture render_cell(const Request& request, const std::string& label, const 
     for (const MicrofacetMaterial& material : cell.objects) add(material);
     if (cell.object)
         for (int i = 0; i < cell.layout.objects; ++i) materials.push_back(cell.object(i));
-    const RowIntegrator integrator(Host::renderman,
-                                   World{scene.scene(), light, camera, w, h, request.seed,
-                                         cell.layout.transparent ? 64 : 16},
-                                   std::move(materials));
+    const RowIntegrator integrator(
+        Host::renderman,
+        World{scene.scene(), light, camera, w, h, request.seed, cell.layout.transparent ? 64 : 16},
+        std::move(materials));
     Film film(w, h);
     RenderJob job;
     job.targets.push_back({&integrator.get(), &film});
@@ -88,12 +88,12 @@ Picture tiled(const std::vector<Picture>& cells, int columns)
     Picture all;
     all.width = w * columns;
     all.height = h * rows;
-    all.pixels.assign(
-        static_cast<std::size_t>(all.width) * static_cast<std::size_t>(all.height),
-        Imath::C3f(0.0f));
+    all.pixels.assign(static_cast<std::size_t>(all.width) * static_cast<std::size_t>(all.height),
+                      Imath::C3f(0.0f));
     for (std::size_t i = 0; i < cells.size(); ++i)
     {
-        const int x0 = w * (static_cast<int>(i) % columns), y0 = h * (static_cast<int>(i) / columns);
+        const int x0 = w * (static_cast<int>(i) % columns),
+                  y0 = h * (static_cast<int>(i) / columns);
         for (int y = 0; y < h; ++y)
             std::copy_n(cells[i].pixels.begin() + y * w, w,
                         all.pixels.begin() + (y0 + y) * all.width + x0);

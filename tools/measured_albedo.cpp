@@ -169,13 +169,28 @@ Imath::V3d direction_at(double mu, double phi)
     return {sine * std::cos(phi), sine * std::sin(phi), mu};
 }
 
+namespace {
+
+// The added lobe of a dielectric goes where no facet refracts to, so the facets do not cover it.
+bool adds_to_dielectric(const ClosureSpec& spec)
+{
+    return spec.lobe == Lobe::dielectric && std::holds_alternative<KullaContyForm>(spec.method);
+}
+
+}  // namespace
+
 AlbedoMethod default_albedo_method(const ClosureSpec& spec)
 {
-    return spec.is_stochastic() ? AlbedoMethod::monte_carlo : AlbedoMethod::quadrature;
+    return spec.is_stochastic() || adds_to_dielectric(spec) ? AlbedoMethod::monte_carlo
+                                                            : AlbedoMethod::quadrature;
 }
 
 void require_possible(const ClosureSpec& spec, const AlbedoSettings& settings)
 {
+    if (settings.how == AlbedoMethod::quadrature && adds_to_dielectric(spec))
+        throw BadInput(
+            "how 'quadrature' does not reach all directions of the lobe that kulla-conty "
+            "adds to a dielectric; accepted: monte-carlo, table");
     if (!spec.is_stochastic()) return;
     if (settings.how == AlbedoMethod::quadrature)
         throw BadInput(

@@ -108,9 +108,9 @@ void read_random_numbers(Fields& fields, Query& query, std::size_t numbers, std:
 AlbedoSettings read_albedo_settings(Fields& fields, const ClosureSpec& closure)
 {
     AlbedoSettings settings;
+    settings.how = default_albedo_method(closure);
     if (closure.is_stochastic())
     {
-        settings.how = AlbedoMethod::monte_carlo;
         if (const auto order = fields.count("order", 1, most_bounces))
             settings.order = static_cast<int>(*order);
     }

@@ -86,13 +86,14 @@ TEST_P(Glass, WithoutCompensationRoughGlassDarkens)
     EXPECT_LT(rough, smooth - 0.1);
 }
 
-TEST_P(Glass, AnObjectOfTheMediumAroundItIsNotSeen)
-{
-    const auto nothing = glass(0.5, shaders::RandomWalk{}, 1);
-    EXPECT_NEAR(furnace(GetParam(), Object::widget, nothing).mean, 1, 0.02);
-}
-
 INSTANTIATE_TEST_SUITE_P(Hosts, Glass, testing::Values(Host::renderman, Host::clarisse),
                          [](const auto& host) { return std::string(name(host.param)); });
+
+// Through the batched host alone: to the other this is two lobes, whose albedos it asks a walk for.
+TEST(GlassInRenderMan, AnObjectOfTheMediumAroundItIsNotSeen)
+{
+    const auto nothing = glass(0.5, shaders::RandomWalk{}, 1);
+    EXPECT_NEAR(furnace(Host::renderman, Object::widget, nothing, 4).mean, 1, 1e-3);
+}
 
 }}  // namespace regain::tools::preview

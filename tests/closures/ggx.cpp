@@ -4,9 +4,7 @@
 // What the distribution promises: it is normalised, its visible normals are seen, its masking
 // follows from it.
 
-#include "../support/closures.h"
-
-#include <regain/luts/quadrature.h>
+#include "../support/normals.h"
 
 #include <gtest/gtest.h>
 
@@ -14,27 +12,6 @@ using namespace regain;
 using namespace regain::tests;
 
 namespace {
-
-// Integral over unit normals m, by slopes stretched by the widths: dm = m_z^3 dp dq.
-template <class F>
-double over_normals(double alpha_x, double alpha_y, const F& f)
-{
-    const auto rule = luts::gauss_legendre(64);
-    const double pi = std::acos(-1.0);
-    constexpr int turns = 256;
-    double sum = 0;
-    for (std::size_t i = 0; i < rule.x.size(); ++i)
-        for (int j = 0; j < turns; ++j)
-        {
-            // rho = x / (1 - x) reaches every slope.
-            const double x = rule.x[i], rho = x / (1 - x), phi = 2 * pi * (j + 0.5) / turns;
-            const double p = alpha_x * rho * std::cos(phi), q = alpha_y * rho * std::sin(phi);
-            const double z = 1 / std::sqrt(1 + p * p + q * q);
-            sum += rule.weight[i] * (2 * pi / turns) * alpha_x * alpha_y * rho /
-                   ((1 - x) * (1 - x)) * z * z * z * f(Vec3<double>(p * z, q * z, z));
-        }
-    return sum;
-}
 
 TEST(Ggx, projected_normals_integrate_to_one)
 {

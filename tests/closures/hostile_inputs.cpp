@@ -5,27 +5,16 @@
 // can pass leads to a result that is not finite, negative or no direction.
 
 #include "../support/closures.h"
+#include "../support/trapped.h"
 
 #include <gtest/gtest.h>
 
-#include <cfenv>
 #include <limits>
 
 using namespace regain;
 using namespace regain::tests;
 
 namespace {
-
-class Trapped
-{
-public:
-    Trapped() { feenableexcept(FE_INVALID | FE_DIVBYZERO); }
-    ~Trapped()
-    {
-        feclearexcept(FE_ALL_EXCEPT);
-        fedisableexcept(FE_INVALID | FE_DIVBYZERO);
-    }
-};
 
 template <class Real>
 class Hostile

@@ -6,7 +6,7 @@
 /// and shadowing.
 ///
 ///   D(m)     = exp(-((mx/ax)^2 + (my/ay)^2) / mz^2) / (pi ax ay mz^4)
-///              Beckmann and Spizzichino 1963; Walter et al. 2007, Eq. 25; Heitz 2014, Eq. 80
+///              Beckmann and Spizzichino 1963; Walter et al. 2007, Eq. 25
 ///   sigma(w) = (c + c erf(c / s) + s exp(-c^2 / s^2) / sqrt(pi)) / 2,  c = w.z,
 ///              s = |(ax wx, ay wy)|: Walter et al. 2007, Eq. 26 (smith G1 = c / sigma)
 ///
@@ -55,10 +55,12 @@ public:
     /// D of the normal m along h, which need not be unit: length2 = h.h. Per steradian.
     Real D(const Vec3<Real>& h, Real length2) const
     {
-        // Half of the exponential with each power of the cosine: neither can overflow alone.
+        // Half of the exponential with each power of the cosine: neither can overflow alone. D
+        // never is 0, so that it may be divided by; what that adds is below any rounding.
+        constexpr double least = sizeof(ScalarOf<Real>) == 4 ? 1e-16 : 1e-150;
         const Real inv_z2 = Real(1) / detail::max(h.z * h.z, detail::constant<Real>(1e-24));
-        const Real r =
-            length2 * inv_z2 * detail::exp(Real(-0.5f) * this->shrunk_tangential2(h) * inv_z2);
+        const Real gauss = detail::exp(Real(-0.5f) * this->shrunk_tangential2(h) * inv_z2);
+        const Real r = detail::max(length2 * inv_z2 * gauss, detail::constant<Real>(least));
         return _normalisation * r * r;
     }
     Real D(const Vec3<Real>& m) const { return D(m, Real(1)); }
@@ -120,6 +122,17 @@ private:
 
 namespace detail {
 
+/// Halley's method takes one to three steps, a few more near u = 1 for c between 2 and 5.
+constexpr int slope_steps = 12;
+
+/// Whether the next step would be below rounding: its length goes with the cube of the last.
+template <class Real>
+bool slope_found(const Real& last_step, const Real& height)
+{
+    const Real small = constant<Real>(sizeof(ScalarOf<Real>) == 4 ? 6e-3 : 3e-6);
+    return all<Real>(abs(last_step) <= small * min(height, Real(1)));
+}
+
 /// The same where c >= 0. Nothing cancels in Q(x) = int_x^inf (c + x) exp(-x^2); Q / (1 + c) is
 /// what is computed, so that c may be large.
 template <class Real>
@@ -129,7 +142,9 @@ Real visible_gaussian_slope_above(const Real& cotangent, const Real& u)
     const Real c = min(cotangent, Real(1e8f)), scale = Real(1) / (Real(1) + c);
     const Real half = Real(0.5f) * scale,
                weight = constant<Real>(0.886226925452758013649) * c * scale;
-    const Real all = half * exp(-c * c) + weight * (Real(2) - erfc(c)), target = u * all;
+    const Real gauss_at_c = exp(-min(c * c, Real(60)));
+    const Real total = half * gauss_at_c + weight * (Real(2) - erfc(min(c, Real(9))));
+    const Real target = u * total;
 
     // With 1 - b^2 for exp(-erf_inverse(b)^2), as Jakob 2014 starts, this is quadratic in b.
     const Real rest = weight + half - target;
@@ -137,23 +152,26 @@ Real visible_gaussian_slope_above(const Real& cotangent, const Real& u)
     const Real start = erf_inverse((rest + rest) / max(weight + root, constant<Real>(1e-6)));
     // The integrand (c + v) exp(-v^2) of what lies between -c and x is below c + v, and above
     // (c + v) exp(-c^2) as long as v < 0.
-    const Real square = Real(2) * (Real(1) - u) * all * (Real(1) + c);
-    const Real least = sqrt(square) - c, most = sqrt(square * exp(min(c * c, Real(80)))) - c;
-    Real x = max(select(most < Real(0), min(start, most), start), least);
+    const Real square = Real(2) * (Real(1) - u) * total * (Real(1) + c);
+    const Real least = sqrt(square) - c, most = sqrt(square / gauss_at_c) - c;
+    Real x = select(most < Real(0), select(start > least, min(start, most), most), start);
 
-    // Halley's method on the logarithm of the smaller part, which is concave.
-    constexpr int steps = sizeof(ScalarOf<Real>) == 4 ? 3 : 4;
+    // Halley's method on the logarithm of the smaller part, which is concave; 2 (a - b) / (a + b)
+    // stands for log(a / b), from which it differs in the third order.
     const Mask lower = u > Real(0.5f);
-    const Real goal = log(select(lower, all - target, target));
-    for (int step = 0; step < steps; ++step)
+    const Real ulp = constant<Real>(sizeof(ScalarOf<Real>) == 4 ? 0x1p-24 : 0x1p-53) * total;
+    const Real goal = select(lower, total - target, target);
+    const Real sign = select(lower, scale, -scale);
+    for (int step = 0; step < slope_steps; ++step)
     {
         const Real gauss = exp(-x * x), beyond = half * gauss + weight * erfc(x);
-        const Real part = max(select(lower, all - beyond, beyond), constant<Real>(1e-30));
+        const Real part = select(lower, max(total - beyond, ulp), beyond);
         const Real height = max(x + c, constant<Real>(1e-9));
-        const Real rate = height * scale * gauss / part, slope = select(lower, rate, -rate);
-        const Real newton = (log(part) - goal) / slope;
-        const Real curvature = Real(1) / height - x - x - slope;
-        x = max(x - newton / max(Real(1) - Real(0.5f) * newton * curvature, Real(0.5f)), least);
+        const Real excess = Real(2) * (part - goal) / (part + goal);
+        const Real newton = excess * part / (sign * height * gauss);
+        const Real bend = newton / height - Real(2) * x * newton - excess;
+        x = max(x - newton / max(Real(1) - Real(0.5f) * bend, Real(0.5f)), least);
+        if (slope_found(newton, height)) break;
     }
     return x;
 }
@@ -171,8 +189,7 @@ Real visible_gaussian_slope_below(const Real& cotangent, const Real& u)
     const Real y = early - goal;
     Real d = y / (a + sqrt(a * a + y));
 
-    constexpr int steps = sizeof(ScalarOf<Real>) == 4 ? 4 : 5;
-    for (int step = 0; step < steps; ++step)
+    for (int step = 0; step < slope_steps; ++step)
     {
         const Real x = a + d, height = d + a * erfcx_deficit(x);
         const Real value = log(height / (x * deficit)) - d * (a + x);
@@ -181,6 +198,7 @@ Real visible_gaussian_slope_below(const Real& cotangent, const Real& u)
         const Real curvature = Real(1) / d - x - x - slope;
         d = max(d - newton / max(Real(1) - Real(0.5f) * newton * curvature, Real(0.5f)),
                 Real(0.1f) * d);
+        if (slope_found(newton, d)) break;
     }
     return a + d;
 }

@@ -5,7 +5,7 @@
 /// The inverse of the error function: erf(erf_inverse(y)) = y, for Gaussian random numbers from
 /// uniform ones without losing their stratification.
 ///
-/// Giles 2012, "Approximating the erfinv function", table 5 (single precision, central and tail
+/// Giles 2012, "Approximating the erfinv function", single precision (a central and a tail
 /// polynomial in -log(1 - y^2)); in double followed by Halley steps. |y| is taken as at most 1 less
 /// half an ulp, so that the answer is finite: |x| <= 3.9 in float, 5.9 in double.
 

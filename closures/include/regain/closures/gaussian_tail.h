@@ -9,7 +9,7 @@
 ///                    = exp(-x^2) erfcx_deficit(x) / sqrt(pi)
 ///
 /// for x >= 0, all digits but two or so of the number type. Far out both come from the continued
-/// fraction of erfc (DLMF 7.9.2), in which nothing is subtracted.
+/// fraction of erfc (DLMF 7.9), in which nothing is subtracted.
 
 #pragma once
 
@@ -20,7 +20,7 @@ REGAIN_NAMESPACE_BEGIN
 namespace detail {
 
 template <class Real>
-constexpr double gaussian_tail_begin = sizeof(ScalarOf<Real>) == 4 ? 2 : 4;
+constexpr double gaussian_tail_begin = sizeof(ScalarOf<Real>) == 4 ? 2 : 3;
 
 /// erfcx_deficit(x) for x >= gaussian_tail_begin.
 template <class Real>
@@ -28,7 +28,7 @@ Real erfcx_deficit_far(const Real& x)
 {
     // sqrt(pi) x erfcx(x) = 1 / (1 + w / v),  v = 1 + 2w / (1 + 3w / (1 + ...)). The tail that is
     // cut off is replaced by that of a fraction with equal terms. v = p / q.
-    constexpr int terms = sizeof(ScalarOf<Real>) == 4 ? 12 : 18;
+    constexpr int terms = sizeof(ScalarOf<Real>) == 4 ? 12 : 24;
     const Real w = Real(0.5f) / (x * x);
     Real p = Real(0.5f) * (Real(1) + sqrt(Real(1) + constant<Real>(4 * (terms + 1)) * w)), q(1);
     for (int n = terms; n >= 2; --n)

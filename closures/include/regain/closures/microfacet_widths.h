@@ -82,7 +82,7 @@ private:
 
 /// Slopes in units of the widths, along and across a direction w as it looks after stretching:
 /// there every distribution that is a function of the stretched slope looks the same from all
-/// azimuths (Heitz 2014, section 5.3).
+/// azimuths (Heitz 2014).
 template <class Real>
 class SlopeFrame
 {

@@ -7,7 +7,7 @@
 /// tails are longer than GGX's.
 ///
 ///   D(m) = (1 + t^2 / (gamma - 1))^-gamma / (pi ax ay mz^4),
-///          t^2 = ((mx/ax)^2 + (my/ay)^2) / mz^2                  Ribardiere et al. 2017, Eq. 6
+///          t^2 = ((mx/ax)^2 + (my/ay)^2) / mz^2                  Ribardiere et al. 2017
 ///
 /// sigma is exact, not the paper's fit of Lambda. With p = gamma - 1, s = |(ax wx, ay wy)| and the
 /// angle psi between w = (sqrt(p) s, w.z) and the normal after stretching, y = sin(psi)^2,
@@ -19,8 +19,8 @@
 ///            = C y^p (1 / (2p (2p - 1)) + z / p - cos(psi) z F / (p + 1)),
 ///   F = 2F1(2p + 1, 1; p + 2; z),   C = Gamma(p + 1/2) / (sqrt(pi) Gamma(p))
 ///
-/// (g'' + g = C sin^(2p - 2); quadratic transformation DLMF 15.8.18; a contiguous relation). F is
-/// Gauss's continued fraction (DLMF 15.7.5), whose coefficients depend on gamma alone.
+/// (g'' + g = C sin^(2p - 2); quadratic transformation, DLMF 15.8(iii); a contiguous relation). F
+/// is Gauss's continued fraction (DLMF 15.7), whose coefficients depend on gamma alone.
 ///
 /// Visible normals are exact, by rejection: the first try reads the three random numbers, later
 /// ones a stream that these determine (random_stream.h), so that samples stay stratified as far as
@@ -90,7 +90,10 @@ public:
         const Real z2 = detail::max(h.z * h.z, detail::constant<Real>(1e-24));
         const Real t2 = _inv_p * this->shrunk_tangential2(h);
         const Real r = length2 / (z2 + t2);
-        return _normalisation * r * r * detail::exp((Real(1) - _p) * detail::log1p(t2 / z2));
+        // D never is 0, so that it may be divided by; what that adds is below any rounding.
+        constexpr double least = sizeof(ScalarOf<Real>) == 4 ? 1e-18 : 1e-200;
+        const Real rest = detail::exp((Real(1) - _p) * detail::log1p(t2 / z2));
+        return _normalisation * r * r * detail::max(rest, detail::constant<Real>(least));
     }
     Real D(const Vec3<Real>& m) const { return D(m, Real(1)); }
 

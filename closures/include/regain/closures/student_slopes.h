@@ -40,7 +40,7 @@ public:
     }
 
     /// Slopes along and across for u in [0, 1)^3. After 64 refused tries, of which there is less
-    /// than one in 1e9, the last one is taken.
+    /// than one in 1e8, the last one is taken.
     Vec2<Real> sample(const Vec3<Real>& u) const
     {
         const Mask below = _cotangent < Real(0);
@@ -57,7 +57,9 @@ public:
                 const Try other = from_below(numbers, v, w);
                 t.along = select(below, other.along, t.along);
                 t.across = select(below, other.across, t.across);
-                t.taken = both<Real>(below, other.taken) | both<Real>(!below, t.taken);
+                const Mask taken_below = both<Real>(below, other.taken),
+                           taken_above = both<Real>(!below, t.taken);
+                t.taken = taken_below | taken_above;
             }
             slopes.x = select(done, slopes.x, t.along);
             slopes.y = select(done, slopes.y, t.across);
@@ -81,7 +83,8 @@ private:
         // across, as one axis of a polar pair (Bailey 1994).
         const Real c = _cotangent;
         const Mask plain = u.x < _plain;
-        const Real number = select(plain, u.x / _plain, (u.x - _plain) / (Real(1) - _plain));
+        const Real number =
+            select(plain, u.x, u.x - _plain) / select(plain, _plain, Real(1) - _plain);
         const Real square = power_minus_one(number, select(plain, _p, _beyond));
         const Real length = sqrt(square), angle = angle_of(u.y);
         const Real side = sin(angle);
@@ -100,7 +103,7 @@ private:
     {
         const Real a = -_cotangent, a2 = a * a;
         // Measured: where the second kind of proposal is taken more often.
-        const Mask steep = both<Real>(_p > Real(1.5f), a2 * _p > Real(0.64f));
+        const Mask steep = both<Real>(_p > Real(1.5f), a2 * (_p - Real(1)) > Real(0.64f));
         const Real k = select(steep, _p - Real(1), _beyond);
         const Real log_ratio = limited(-log(number_of(u.x)) / k -
                                        select(steep, log(number_of(v)) / (k + Real(1)), Real(0)));
@@ -120,7 +123,7 @@ private:
     // one axis of which is distributed as (1 + t^2)^-(p + 1).
     Real across_of(const Real& square, const Real& u) const
     {
-        return sqrt((Real(1) + square) * power_minus_one(u, _p + Real(0.5f)));
+        return sqrt(Real(1) + square) * sqrt(power_minus_one(u, _p + Real(0.5f)));
     }
 
     // u^(-1/k) - 1.

@@ -21,7 +21,7 @@
 
 REGAIN_NAMESPACE_BEGIN
 
-/// Range of gamma of GTR (Burley 2012). At 2 it is GGX, smaller means longer tails.
+/// Range of gamma of GTR (Burley 2012, B.1). At 2 it is GGX, smaller means longer tails.
 constexpr double gtr_min_gamma = 1e-3, gtr_max_gamma = 10;
 /// Range of gamma of STD (Ribardiere et al. 2017). At 2 it is GGX, smaller means longer tails. At
 /// 1.5 the mean slope diverges and nothing comes back; 100 is a Beckmann lobe within 4e-3 of its

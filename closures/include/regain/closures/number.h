@@ -185,7 +185,8 @@ MaskOf<Real> both(const MaskOf<Real>& a, const MaskOf<Real>& b)
 template <class Real>
 MaskOf<Real> differ(const MaskOf<Real>& a, const MaskOf<Real>& b)
 {
-    return both<Real>(a, !b) | both<Real>(!a, b);
+    const MaskOf<Real> first = both<Real>(a, !b), second = both<Real>(!a, b);
+    return first | second;
 }
 
 /// Every lane, some lane.

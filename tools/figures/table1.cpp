@@ -4,6 +4,8 @@
 // Table 1 of Turquin 2019 with numbers in place of marks: every method a row. Energy, colour and
 // shape are held against the random walk, which is exact for the model.
 
+#include "table1.h"
+#include "clock.h"
 #include "figure.h"
 #include "measures.h"
 
@@ -18,7 +20,6 @@
 
 #include <fmt/format.h>
 
-#include <functional>
 #include <stdexcept>
 
 namespace regain::tools::figures {
@@ -40,8 +41,8 @@ struct Measured
     double shape = 0, worst_shape = 0;  ///< mean and largest L1 distance from the walk
     double reciprocity = 0;             ///< largest |f(wo, wi) / f(wi, wo) - 1|
     double variance = 0;                ///< of the weight with F = 1, mean over the shape cases
-    double eval = 0, sample = 0;        ///< nanoseconds, prepare included
-    std::size_t tables = 0;             ///< bytes that are read
+    Times times;
+    std::size_t tables = 0;  ///< bytes that are read
 
     double tint_rms() const { return std::sqrt(tint_squares / std::max(tints, 1)); }
 };
@@ -169,60 +170,6 @@ void measure_lobes(const Make& make, const Request& request, const Truth& truth,
     });
 }
 
-// Directions and numbers for timing, the same for all.
-struct Inputs
-{
-    static constexpr int count = 256;
-    std::vector<Vec3<float>> wo, wi, u;
-
-    Inputs()
-    {
-        RandomNumbers random(7);
-        const auto direction = [&] {
-            const double mu = std::sqrt(random.next<double>());
-            return at_angle<float>(mu, 6.28 * random.next<double>());
-        };
-        for (int i = 0; i < count; ++i)
-        {
-            wo.push_back(direction());
-            wi.push_back(direction());
-            u.emplace_back(random.next<float>(), random.next<float>(), random.next<float>());
-        }
-    }
-};
-
-// A clock of one method: the time of eval and of sample, each with prepare, of gold at alpha 0.5.
-struct Clocked
-{
-    std::function<double(int)> eval, sample;
-};
-
-template <class Make>
-Clocked clock_of(const Make& make, const Inputs& in)
-{
-    const auto closure = make(GGX<float>(0.5f), schlick<float>());
-    Clocked c;
-    c.eval = [closure, &in](int repeats) {
-        return nanoseconds(repeats, Inputs::count, [&](int i) {
-            const auto k = static_cast<std::size_t>(i);
-            return double(evaluate(closure.prepare(in.wo[k]), in.wi[k], in.u[k]).y);
-        });
-    };
-    c.sample = [closure, &in](int repeats) {
-        return nanoseconds(repeats, Inputs::count, [&](int i) {
-            const auto k = static_cast<std::size_t>(i);
-            return double(closure.prepare(in.wo[k]).sample(in.u[k]).weight.y);
-        });
-    };
-    return c;
-}
-
-std::size_t bytes(const TableView& table)
-{
-    return sizeof(std::uint16_t) * static_cast<std::size_t>(table.width) *
-           static_cast<std::size_t>(table.height) * static_cast<std::size_t>(table.depth);
-}
-
 struct Row
 {
     std::string name, form;
@@ -283,7 +230,7 @@ Row measured_row(const std::string& name, const std::string& form, const Make& m
                  std::size_t tables)
 {
     if (request.stopped()) throw Stopped();
-    Row row{name, form, {}, clock_of(make, inputs)};
+    Row row{name, form, {}, clock_of(make(GGX<float>(0.5f), schlick<float>()), inputs)};
     measure_lobes(make, request, truth, row.measured);
     row.measured.tables = tables;
     const auto white = make(GGX<double>(0.6), ConstantFresnel<double>());
@@ -294,33 +241,6 @@ Row measured_row(const std::string& name, const std::string& form, const Make& m
     else
         row.measured.reciprocity = mean_reciprocity_error(white, request);
     return row;
-}
-
-// Rounds of all methods in turn, so that a slow moment of the machine meets all of them; the median
-// over rounds of each.
-void clock_all(std::vector<Row>& rows, const Request& request)
-{
-    const int rounds = std::max(3, static_cast<int>(31 * std::min(1.0, request.precision)));
-    std::vector<std::vector<double>> evals(rows.size()), samples(rows.size());
-    for (int round = 0; round < rounds; ++round)
-    {
-        if (request.stopped()) throw Stopped();
-        for (std::size_t i = 0; i < rows.size(); ++i)
-        {
-            evals[i].push_back(rows[i].clocked.eval(9));
-            samples[i].push_back(rows[i].clocked.sample(9));
-        }
-    }
-    const auto median = [](std::vector<double>& times) {
-        const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
-        std::nth_element(times.begin(), middle, times.end());
-        return *middle;
-    };
-    for (std::size_t i = 0; i < rows.size(); ++i)
-    {
-        rows[i].measured.eval = median(evals[i]);
-        rows[i].measured.sample = median(samples[i]);
-    }
 }
 
 const Row& row_of(const std::vector<Row>& rows, std::string_view name)
@@ -359,18 +279,18 @@ void add_findings(const std::vector<Row>& rows, Figure& figure)
             none.variance, ours.variance, added.variance, walk.variance),
         ours.variance <= none.variance * 1.001 + 1e-6);
     const auto times = [&](const Measured& m) {
-        return fmt::format("eval x{:.2f}, sample x{:.2f}", m.eval / none.eval,
-                           m.sample / none.sample);
+        return fmt::format("eval x{:.2f}, sample x{:.2f}", m.times.eval / none.times.eval,
+                           m.times.sample / none.times.sample);
     };
     add("Speed: ours is marginally faster than Kulla and Conty, both much faster than the walk.",
         fmt::format("Of an uncompensated lobe's time: turquin {}; Kulla and Conty {}; walk {}.",
                     times(ours), times(added), times(walk)),
-        ours.eval < added.eval && added.eval < walk.eval);
+        ours.times.eval < added.times.eval && added.times.eval < walk.times.eval);
     add("The walk is 7 times slower (Mitsuba, their original code, whole renders of a conductor).",
         fmt::format("A walk takes {:.1f} times as long as a sample of turquin, one estimate of its "
                     "value {:.1f} times as long as an eval.",
-                    walk.sample / ours.sample, walk.eval / ours.eval),
-        walk.sample / ours.sample > 5);
+                    walk.times.sample / ours.times.sample, walk.times.eval / ours.times.eval),
+        walk.times.sample / ours.times.sample > 5);
     add("All of them preserve energy.",
         fmt::format("Largest |1 - E| with F = 1: none {:.3f}, turquin {:.4f}, Kulla and Conty "
                     "{:.4f}, walk {:.4f}.",
@@ -392,7 +312,7 @@ Figure make_table1(const Request& request)
 {
     Figure figure;
     figure.name = "table1";
-    figure.title = "every method, measured (GGX conductors)";
+    figure.title = "every method, measured";
     const Truth truth = walk_truth(request);
     const Inputs inputs;
 
@@ -412,7 +332,10 @@ Figure make_table1(const Request& request)
     for (const KullaContyForm form : all_kulla_conty_forms)
         add(std::string(name(form)), "added lobe", with_added_lobe(form), E_ss);
     add("walk", "replaces the lobe", walking(), 0);
-    clock_all(rows, request);
+    std::vector<Clocked> clocks;
+    for (const Row& row : rows) clocks.push_back(row.clocked);
+    const std::vector<Times> times = clocked(clocks, request);
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i].measured.times = times[i];
 
     const Measured none = row_of(rows, "none").measured;
     Table table{
@@ -430,9 +353,11 @@ Figure make_table1(const Request& request)
             {row.name, row.form, fmt::format("{:.4f}", m.energy), fmt::format("{:.4f}", m.tint),
              fmt::format("{:.4f}", m.tint_rms()), fmt::format("{:.3f}", m.shape),
              fmt::format("{:.3f}", m.worst_shape), fmt::format("{:.1e}", m.reciprocity),
-             fmt::format("{:.4f}", m.variance), fmt::format("{:.1f}", m.eval),
-             fmt::format("{:.2f}", m.eval / none.eval), fmt::format("{:.1f}", m.sample),
-             fmt::format("{:.2f}", m.sample / none.sample), fmt::format("{} B", m.tables)});
+             fmt::format("{:.4f}", m.variance), fmt::format("{:.1f}", m.times.eval),
+             fmt::format("{:.2f}", m.times.eval / none.times.eval),
+             fmt::format("{:.1f}", m.times.sample),
+             fmt::format("{:.2f}", m.times.sample / none.times.sample),
+             fmt::format("{} B", m.tables)});
         figure.numbers[row.name] = {{"form", row.form},
                                     {"energy_worst", m.energy},
                                     {"tint_worst", m.tint},
@@ -441,13 +366,14 @@ Figure make_table1(const Request& request)
                                     {"shape_worst", m.worst_shape},
                                     {"reciprocity_worst", m.reciprocity},
                                     {"weight_variance", m.variance},
-                                    {"eval_ns", m.eval},
-                                    {"sample_ns", m.sample},
+                                    {"eval_ns", m.times.eval},
+                                    {"sample_ns", m.times.sample},
                                     {"table_bytes", m.tables}};
     }
     figure.numbers["walk_standard_error"] = truth.standard_error;
     figure.tables.push_back(table);
     add_findings(rows, figure);
+    add_glass(request, figure);
     return figure;
 }
 

@@ -27,6 +27,14 @@ const std::vector<Maker>& makers()
     return all;
 }
 
+Figure titled(std::string name, std::string title)
+{
+    Figure figure;
+    figure.name = std::move(name);
+    figure.title = std::move(title);
+    return figure;
+}
+
 Finding tested(std::string claim, std::string measured, bool holds)
 {
     return {std::move(claim), std::move(measured), holds ? Verdict::agrees : Verdict::differs};

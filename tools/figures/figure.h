@@ -47,6 +47,9 @@ struct Figure
     nlohmann::ordered_json numbers;  ///< whatever was measured, for machines
 };
 
+/// A figure of which nothing is known yet but what it is.
+Figure titled(std::string name, std::string title);
+
 /// How the figures are to be made.
 struct Request
 {

@@ -40,11 +40,10 @@ double saturation(const Imath::Color3<double>& c)
 
 Figure make_figure1(const Request& request)
 {
-    Figure figure;
-    figure.name = "1";
-    figure.title =
-        "increasingly rough GGX gold; single scattering above, method turquin below; "
-        "alpha 0.05, 0.2, 0.4, 0.6, 0.8, 1";
+    Figure figure =
+        titled("1",
+               "increasingly rough GGX gold; single scattering above, method turquin below; "
+               "alpha 0.05, 0.2, 0.4, 0.6, 0.8, 1");
     std::vector<Picture> rows;
     for (const Method method : {Method::none, Method::turquin})
     {

@@ -111,11 +111,10 @@ Picture furnace_rows(const Request& request, const Method& method)
 
 Figure make_figure2(const Request& request)
 {
-    Figure figure;
-    figure.name = "2";
-    figure.title =
-        "white furnace, F = 1, alpha from 0 (left) to 1 (right); from top to bottom "
-        "Beckmann, GGX, GTR gamma 1, STD gamma 1.55";
+    Figure figure =
+        titled("2",
+               "white furnace, F = 1, alpha from 0 (left) to 1 (right); from top to bottom "
+               "Beckmann, GGX, GTR gamma 1, STD gamma 1.55");
     write_pictures(request, figure, "figure2", furnace_rows(request, Method::none), true);
     write_pictures(request, figure, "figure2-compensated", furnace_rows(request, Method::turquin),
                    true);

@@ -35,9 +35,7 @@ struct Cloth
 Figure make_figure3(const Request& request)
 {
     constexpr int objects = 5;
-    Figure figure;
-    figure.name = "3";
-    figure.title = "sheen 0, 0.25, 0.5, 0.75, 1 over a dark base, as in Burley 2015";
+    Figure figure = titled("3", "sheen 0, 0.25, 0.5, 0.75, 1 over a dark base, as in Burley 2015");
     Cell cell;
     cell.layout.objects = objects;
     cell.object = [](int i) {

@@ -123,9 +123,7 @@ LobePanel add_case(const Request& request, Figure& figure, Table& table, const c
 
 Figure make_figure4(const Request& request)
 {
-    Figure figure;
-    figure.name = "4";
-    figure.title = "lobes of the first, second and later bounces";
+    Figure figure = titled("4", "lobes of the first, second and later bounces");
     figure.numbers = nlohmann::ordered_json::array();
     const MicrofacetTables ggx = luts::microfacet_tables("ggx"),
                            beckmann = luts::microfacet_tables("beckmann");

@@ -27,11 +27,10 @@ SampledEnergy energy(shaders::MicrofacetMaterial material, double mu, const Requ
 Figure make_figure6(const Request& request)
 {
     constexpr double alpha = 0.8, mu = 0.7;
-    Figure figure;
-    figure.name = "6";
-    figure.title =
-        "rough gold (alpha 0.8): no compensation, energy alone (normalise), with F_ms "
-        "(turquin)";
+    Figure figure =
+        titled("6",
+               "rough gold (alpha 0.8): no compensation, energy alone (normalise), with F_ms "
+               "(turquin)");
     Cell cell;
     cell.layout.objects = 3;
     for (const Method method : {Method::none, Method::normalise, Method::turquin})
@@ -58,9 +57,8 @@ Figure make_figure6(const Request& request)
 Figure make_figure8(const Request& request)
 {
     constexpr double alpha = 0.5;
-    Figure figure;
-    figure.name = "8";
-    figure.title = "rough GGX glass (alpha 0.5, index 1.5) without and with compensation";
+    Figure figure =
+        titled("8", "rough GGX glass (alpha 0.5, index 1.5) without and with compensation");
     Cell cell;
     cell.layout.objects = 2;
     cell.layout.transparent = true;

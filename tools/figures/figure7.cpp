@@ -123,9 +123,7 @@ void plot_depth(const Request& request, Figure& figure)
 
 Figure make_figure7(const Request& request)
 {
-    Figure figure;
-    figure.name = "7";
-    figure.title = "F_ms of Eq. 7 over F_ss; the depth of the random walk over alpha";
+    Figure figure = titled("7", "F_ms of Eq. 7 over F_ss; the depth of the random walk over alpha");
     plot_tint(request, figure);
     plot_depth(request, figure);
     return figure;

@@ -75,11 +75,10 @@ Comparison compared(const Request& request, Figure& figure, const char* what, bo
 
 Figure make_figure9(const Request& request)
 {
-    Figure figure;
-    figure.name = "9";
-    figure.title =
-        "rough GGX reflection, then transmission; left to right no compensation, "
-        "turquin, random walk; top to bottom alpha 0.4, 0.7, 1";
+    Figure figure =
+        titled("9",
+               "rough GGX reflection, then transmission; left to right no compensation, "
+               "turquin, random walk; top to bottom alpha 0.4, 0.7, 1");
     const Comparison metal = compared(request, figure, "reflection", false, gold);
     const Comparison clear = compared(request, figure, "transmission", true, glass);
     figure.findings.push_back(

@@ -310,9 +310,7 @@ void add_findings(const std::vector<Row>& rows, Figure& figure)
 
 Figure make_table1(const Request& request)
 {
-    Figure figure;
-    figure.name = "table1";
-    figure.title = "every method, measured";
+    Figure figure = titled("table1", "every method, measured");
     const Truth truth = walk_truth(request);
     const Inputs inputs;
 

@@ -11,7 +11,7 @@
 ///       .pdf(wi)           per steradian, over all that sample can return; integrates to
 ///                          1 - P(nothing)
 ///       .albedo()          an Albedo, for wo
-///     eval(wo, wi) ...     shorthands for prepare(wo).eval(wi) ...
+///     eval(wo, wi) ...     shorthands for prepare(wo).eval(wi) ..., by Shorthands below
 ///     traits()             a Traits
 ///     random_numbers       static: how many numbers sample reads, 2 or 3
 ///
@@ -99,6 +99,39 @@ Vec3<Real> two_numbers(const Vec2<Real>& u)
     static_assert(Closure::random_numbers <= 2, "this closure reads three random numbers");
     return {u.x, u.y, Real(0)};
 }
+
+}  // namespace detail
+
+/// The base of a closure that asks prepare(wo) once for each answer.
+template <class Closure, class Real>
+class Shorthands
+{
+public:
+    auto eval(const Vec3<Real>& wo, const Vec3<Real>& wi) const { return prepared(wo).eval(wi); }
+    /// Of a closure whose eval is an estimate.
+    auto eval(const Vec3<Real>& wo, const Vec3<Real>& wi, const Vec3<Real>& u) const
+    {
+        return prepared(wo).eval(wi, u);
+    }
+    Sample<Real> sample(const Vec3<Real>& wo, const Vec3<Real>& u) const
+    {
+        return prepared(wo).sample(u);
+    }
+    Sample<Real> sample(const Vec3<Real>& wo, const Vec2<Real>& u) const
+    {
+        return prepared(wo).sample(detail::two_numbers<Closure>(u));
+    }
+    Real pdf(const Vec3<Real>& wo, const Vec3<Real>& wi) const { return prepared(wo).pdf(wi); }
+    Albedo<Real> albedo(const Vec3<Real>& wo) const { return prepared(wo).albedo(); }
+
+private:
+    auto prepared(const Vec3<Real>& wo) const
+    {
+        return static_cast<const Closure&>(*this).prepare(wo);
+    }
+};
+
+namespace detail {
 
 /// The albedo of a prepared closure by its own samples: their mean weight over a grid of random
 /// numbers. Right within 2e-3, and a thousand times slower than a look-up.

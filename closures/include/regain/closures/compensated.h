@@ -12,7 +12,7 @@
 REGAIN_NAMESPACE_BEGIN
 
 template <class LobeType, class GainType>
-class Compensated
+class Compensated : public Shorthands<Compensated<LobeType, GainType>, typename LobeType::Real>
 {
 public:
     using Lobe = LobeType;
@@ -86,18 +86,8 @@ public:
 
     Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
 
-    Color eval(const Vec3<Real>& wo, const Vec3<Real>& wi) const { return prepare(wo).eval(wi); }
-    Sample<Real> sample(const Vec3<Real>& wo, const Vec2<Real>& u) const
-    {
-        return prepare(wo).sample(u);
-    }
-    Sample<Real> sample(const Vec3<Real>& wo, const Vec3<Real>& u) const
-    {
-        return prepare(wo).sample(u);
-    }
     // No gain enters a pdf, so none is looked up for it.
     Real pdf(const Vec3<Real>& wo, const Vec3<Real>& wi) const { return _lobe.pdf(wo, wi); }
-    Albedo<Real> albedo(const Vec3<Real>& wo) const { return prepare(wo).albedo(); }
 
 private:
     Lobe _lobe;

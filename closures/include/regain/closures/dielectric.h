@@ -47,7 +47,7 @@ enum class ScatterMode { R, T, RT };
 enum class TransmissionShadowing { correlated, beta };
 
 template <class DistributionType>
-class Dielectric
+class Dielectric : public Shorthands<Dielectric<DistributionType>, typename DistributionType::Real>
 {
 public:
     using Distribution = DistributionType;
@@ -390,14 +390,6 @@ public:
     };
 
     Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
-
-    Color eval(const Vec3<Real>& wo, const Vec3<Real>& wi) const { return prepare(wo).eval(wi); }
-    Sample<Real> sample(const Vec3<Real>& wo, const Vec3<Real>& u) const
-    {
-        return prepare(wo).sample(u);
-    }
-    Real pdf(const Vec3<Real>& wo, const Vec3<Real>& wi) const { return prepare(wo).pdf(wi); }
-    Albedo<Real> albedo(const Vec3<Real>& wo) const { return prepare(wo).albedo(); }
 
 private:
     Distribution _distribution;

@@ -42,6 +42,7 @@ enum class KullaContySplit { kulla_conty, greatest };
 /// The added lobes alone: azimuthally symmetric, black for a flat surface and without tables.
 template <class DielectricType>
 class DielectricMissingEnergyLobe
+    : public Shorthands<DielectricMissingEnergyLobe<DielectricType>, typename DielectricType::Real>
 {
 public:
     using Dielectric = DielectricType;
@@ -243,14 +244,6 @@ public:
 
     Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
 
-    Color eval(const Vec3<Real>& wo, const Vec3<Real>& wi) const { return prepare(wo).eval(wi); }
-    Sample<Real> sample(const Vec3<Real>& wo, const Vec3<Real>& u) const
-    {
-        return prepare(wo).sample(u);
-    }
-    Real pdf(const Vec3<Real>& wo, const Vec3<Real>& wi) const { return prepare(wo).pdf(wi); }
-    Albedo<Real> albedo(const Vec3<Real>& wo) const { return prepare(wo).albedo(); }
-
 private:
     using Missing = MissingEnergy<Real, 3, 16>;
 
@@ -273,6 +266,7 @@ private:
 /// A Dielectric and its added lobes.
 template <class LobeType>
 class DielectricKullaConty
+    : public Shorthands<DielectricKullaConty<LobeType>, typename LobeType::Real>
 {
 public:
     using Lobe = LobeType;
@@ -329,14 +323,6 @@ public:
     };
 
     Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
-
-    Color eval(const Vec3<Real>& wo, const Vec3<Real>& wi) const { return _mixture.eval(wo, wi); }
-    Sample<Real> sample(const Vec3<Real>& wo, const Vec3<Real>& u) const
-    {
-        return prepare(wo).sample(u);
-    }
-    Real pdf(const Vec3<Real>& wo, const Vec3<Real>& wi) const { return prepare(wo).pdf(wi); }
-    Albedo<Real> albedo(const Vec3<Real>& wo) const { return prepare(wo).albedo(); }
 
 private:
     static Real total(const Color& c) { return c.x + c.y + c.z; }

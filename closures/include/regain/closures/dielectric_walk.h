@@ -46,6 +46,7 @@ REGAIN_NAMESPACE_BEGIN
 
 template <class DistributionType>
 class DielectricWalk
+    : public Shorthands<DielectricWalk<DistributionType>, typename DistributionType::Real>
 {
 public:
     using Distribution = DistributionType;
@@ -384,17 +385,6 @@ public:
     };
 
     Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
-
-    Color eval(const Vec3<Real>& wo, const Vec3<Real>& wi, const Vec3<Real>& u) const
-    {
-        return prepare(wo).eval(wi, u);
-    }
-    Sample<Real> sample(const Vec3<Real>& wo, const Vec3<Real>& u) const
-    {
-        return prepare(wo).sample(u);
-    }
-    Real pdf(const Vec3<Real>& wo, const Vec3<Real>& wi) const { return prepare(wo).pdf(wi); }
-    Albedo<Real> albedo(const Vec3<Real>& wo) const { return prepare(wo).albedo(); }
 
 private:
     Dielectric<Distribution> _lobe;

@@ -12,7 +12,7 @@
 REGAIN_NAMESPACE_BEGIN
 
 template <class RealType>
-class Diffuse
+class Diffuse : public Shorthands<Diffuse<RealType>, RealType>
 {
 public:
     using Real = RealType;
@@ -90,18 +90,6 @@ public:
     };
 
     Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
-
-    Color eval(const Vec3<Real>& wo, const Vec3<Real>& wi) const { return prepare(wo).eval(wi); }
-    Sample<Real> sample(const Vec3<Real>& wo, const Vec2<Real>& u) const
-    {
-        return prepare(wo).sample(u);
-    }
-    Sample<Real> sample(const Vec3<Real>& wo, const Vec3<Real>& u) const
-    {
-        return prepare(wo).sample(u);
-    }
-    Real pdf(const Vec3<Real>& wo, const Vec3<Real>& wi) const { return prepare(wo).pdf(wi); }
-    Albedo<Real> albedo(const Vec3<Real>& wo) const { return prepare(wo).albedo(); }
 
 private:
     Color _albedo;

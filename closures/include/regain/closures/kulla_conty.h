@@ -68,7 +68,7 @@ Color3<Real> kulla_conty_tint(KullaContyForm form, const Color3<Real>& F_ss, Rea
 
 /// The added lobe alone: azimuthally symmetric, black for a mirror and without a table.
 template <class RealType>
-class MissingEnergyLobe
+class MissingEnergyLobe : public Shorthands<MissingEnergyLobe<RealType>, RealType>
 {
 public:
     using Real = RealType;
@@ -197,18 +197,6 @@ public:
 
     Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
 
-    Color eval(const Vec3<Real>& wo, const Vec3<Real>& wi) const { return prepare(wo).eval(wi); }
-    Sample<Real> sample(const Vec3<Real>& wo, const Vec2<Real>& u) const
-    {
-        return prepare(wo).sample(u);
-    }
-    Sample<Real> sample(const Vec3<Real>& wo, const Vec3<Real>& u) const
-    {
-        return prepare(wo).sample(u);
-    }
-    Real pdf(const Vec3<Real>& wo, const Vec3<Real>& wi) const { return prepare(wo).pdf(wi); }
-    Albedo<Real> albedo(const Vec3<Real>& wo) const { return prepare(wo).albedo(); }
-
 private:
     MicrofacetTables _tables;
     TableAxes<Real> _axes;
@@ -220,7 +208,7 @@ private:
 
 /// A MicrofacetReflection and its added lobe.
 template <class LobeType>
-class KullaConty
+class KullaConty : public Shorthands<KullaConty<LobeType>, typename LobeType::Real>
 {
 public:
     using Lobe = LobeType;
@@ -271,14 +259,6 @@ public:
     };
 
     Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
-
-    Color eval(const Vec3<Real>& wo, const Vec3<Real>& wi) const { return _mixture.eval(wo, wi); }
-    Sample<Real> sample(const Vec3<Real>& wo, const Vec3<Real>& u) const
-    {
-        return prepare(wo).sample(u);
-    }
-    Real pdf(const Vec3<Real>& wo, const Vec3<Real>& wi) const { return prepare(wo).pdf(wi); }
-    Albedo<Real> albedo(const Vec3<Real>& wo) const { return prepare(wo).albedo(); }
 
 private:
     static MissingEnergyLobe<Real> added(const Lobe& lobe, KullaContyForm form,

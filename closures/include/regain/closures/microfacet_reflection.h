@@ -26,7 +26,8 @@
 REGAIN_NAMESPACE_BEGIN
 
 template <class DistributionType, class FresnelType>
-class MicrofacetReflection
+class MicrofacetReflection : public Shorthands<MicrofacetReflection<DistributionType, FresnelType>,
+                                               typename DistributionType::Real>
 {
 public:
     using Distribution = DistributionType;
@@ -177,18 +178,6 @@ public:
     };
 
     Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
-
-    Color eval(const Vec3<Real>& wo, const Vec3<Real>& wi) const { return prepare(wo).eval(wi); }
-    Sample<Real> sample(const Vec3<Real>& wo, const Vec2<Real>& u) const
-    {
-        return prepare(wo).sample(u);
-    }
-    Sample<Real> sample(const Vec3<Real>& wo, const Vec3<Real>& u) const
-    {
-        return prepare(wo).sample(u);
-    }
-    Real pdf(const Vec3<Real>& wo, const Vec3<Real>& wi) const { return prepare(wo).pdf(wi); }
-    Albedo<Real> albedo(const Vec3<Real>& wo) const { return prepare(wo).albedo(); }
 
 private:
     Distribution _distribution;

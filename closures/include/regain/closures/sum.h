@@ -25,7 +25,7 @@
 REGAIN_NAMESPACE_BEGIN
 
 template <class FirstType, class SecondType>
-class Sum
+class Sum : public Shorthands<Sum<FirstType, SecondType>, typename FirstType::Real>
 {
 public:
     using First = FirstType;
@@ -168,17 +168,6 @@ public:
     };
 
     Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
-
-    Color eval(const Vec3<Real>& wo, const Vec3<Real>& wi) const
-    {
-        return _first.eval(wo, wi) + _second.eval(wo, wi);
-    }
-    Sample<Real> sample(const Vec3<Real>& wo, const Vec3<Real>& u) const
-    {
-        return prepare(wo).sample(u);
-    }
-    Real pdf(const Vec3<Real>& wo, const Vec3<Real>& wi) const { return prepare(wo).pdf(wi); }
-    Albedo<Real> albedo(const Vec3<Real>& wo) const { return prepare(wo).albedo(); }
 
 private:
     First _first;

@@ -45,7 +45,7 @@
 REGAIN_NAMESPACE_BEGIN
 
 template <class DistributionType, class FresnelType>
-class Walk
+class Walk : public Shorthands<Walk<DistributionType, FresnelType>, typename DistributionType::Real>
 {
 public:
     using Distribution = DistributionType;
@@ -293,17 +293,6 @@ public:
     };
 
     Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
-
-    Color eval(const Vec3<Real>& wo, const Vec3<Real>& wi, const Vec3<Real>& u) const
-    {
-        return prepare(wo).eval(wi, u);
-    }
-    Sample<Real> sample(const Vec3<Real>& wo, const Vec3<Real>& u) const
-    {
-        return prepare(wo).sample(u);
-    }
-    Real pdf(const Vec3<Real>& wo, const Vec3<Real>& wi) const { return prepare(wo).pdf(wi); }
-    Albedo<Real> albedo(const Vec3<Real>& wo) const { return prepare(wo).albedo(); }
 
 private:
     bool isotropic() const

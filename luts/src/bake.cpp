@@ -9,6 +9,7 @@
 #include <Imath/half.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <mutex>
@@ -76,15 +77,17 @@ Lattice integrate(const Definition& d, const BakeProgress& progress)
     return l;
 }
 
-// The lattice of the family that was integrated last is kept for the next table.
+// The lattice of the family that was integrated last is kept for the next table with as many nodes.
 std::shared_ptr<const Lattice> lattice_of(const Definition& d, const BakeProgress& progress)
 {
     static std::mutex mutex;
     static Family last;
+    static std::array<int, 3> last_nodes{};
     static std::shared_ptr<const Lattice> kept;
+    const std::array<int, 3> nodes{d.width, d.height, d.depth};
     {
         const std::lock_guard<std::mutex> lock(mutex);
-        if (kept && last == d.family)
+        if (kept && last == d.family && last_nodes == nodes)
         {
             if (progress && !progress(1)) throw BakeStopped();
             return kept;
@@ -93,6 +96,7 @@ std::shared_ptr<const Lattice> lattice_of(const Definition& d, const BakeProgres
     auto lattice = std::make_shared<const Lattice>(integrate(d, progress));
     const std::lock_guard<std::mutex> lock(mutex);
     last = d.family;
+    last_nodes = nodes;
     kept = lattice;
     return lattice;
 }

@@ -190,14 +190,14 @@ std::vector<Family::Values> Family::row(const std::vector<double>& xs, double y,
     return values;
 }
 
-bool Family::promised(double x, double y, double z) const
+bool Family::promised(double x, double y, double z, double share) const
 {
     if (kind == Kind::average) return !has_tail_axis() || alpha_of_tailed(x) >= 5e-4;
     if (kind == Kind::dielectric)
     {
         const double alpha = alpha_of_root(y), eta = eta_of_coordinate(z, inside);
         return (inside ? mu_of_critical_cosine(x, alpha, eta) : mu_of_stretched_cosine(x, alpha)) >=
-               0.018;
+               0.018 * share;
     }
     if (!has_tail_axis()) return true;
     const double alpha = alpha_of_tailed(y);

@@ -9,6 +9,7 @@
 #include <Imath/half.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <mutex>
@@ -76,15 +77,17 @@ Lattice integrate(const Definition& d, const BakeProgress& progress)
     return l;
 }
 
-// The lattice of the family that was integrated last is kept for the next table.
+// The lattice of the family that was integrated last is kept for the next table with as many nodes.
 std::shared_ptr<const Lattice> lattice_of(const Definition& d, const BakeProgress& progress)
 {
     static std::mutex mutex;
     static Family last;
+    static std::array<int, 3> last_nodes{};
     static std::shared_ptr<const Lattice> kept;
+    const std::array<int, 3> nodes{d.width, d.height, d.depth};
     {
         const std::lock_guard<std::mutex> lock(mutex);
-        if (kept && last == d.family)
+        if (kept && last == d.family && last_nodes == nodes)
         {
             if (progress && !progress(1)) throw BakeStopped();
             return kept;
@@ -93,6 +96,7 @@ std::shared_ptr<const Lattice> lattice_of(const Definition& d, const BakeProgres
     auto lattice = std::make_shared<const Lattice>(integrate(d, progress));
     const std::lock_guard<std::mutex> lock(mutex);
     last = d.family;
+    last_nodes = nodes;
     kept = lattice;
     return lattice;
 }
@@ -113,12 +117,7 @@ public:
         for (int k = 0; k < lattice.depth; ++k)
             for (int j = 0; j < lattice.height; ++j)
                 for (int i = 0; i < lattice.width; ++i)
-                    if (lattice.is_used(i, j, k) &&
-                        definition.family.promised(coordinate(i, lattice.width),
-                                                   coordinate(j, lattice.height),
-                                                   coordinate(k, lattice.depth)) &&
-                        !(quantity(exact(i, j, k)) < definition.smallest_promised &&
-                          definition.fitted))
+                    if (lattice.is_used(i, j, k) && counts(i, j, k, levelled_beyond))
                         _checks.push_back(check(i, j, k));
     }
 
@@ -170,24 +169,40 @@ public:
     double largest_error() const
     {
         double largest = 0;
-        for (const Check& c : _checks) largest = std::max(largest, std::abs(error(c)));
+        for (const Check& c : _checks)
+            if (c.promised) largest = std::max(largest, std::abs(error(c)));
         return largest;
     }
 
     std::vector<float> nodes() const { return {_nodes.begin(), _nodes.end()}; }
 
 private:
+    // Nodes of dielectrics are levelled a little beyond what is promised, lest those at its bounds
+    // follow points on one side alone.
+    static constexpr double levelled_beyond = 0.4;
+
     // A point of the lattice, with the exact value there and the weights of the nodes about it.
     struct Check
     {
         std::size_t node;  // the one below on every axis
         double weight[8];
         double exact;
+        bool promised;
     };
 
     double exact(int i, int j, int k) const
     {
         return _definition.value(_lattice.values[_lattice.at(i, j, k)]);
+    }
+
+    // Whether the error matters at a point, the bounds of what is promised times `share`.
+    bool counts(int i, int j, int k, double share) const
+    {
+        const Family& family = _definition.family;
+        return family.promised(coordinate(i, _lattice.width), coordinate(j, _lattice.height),
+                               coordinate(k, _lattice.depth), share) &&
+               !(_definition.fitted &&
+                 quantity(exact(i, j, k)) < share * _definition.smallest_promised);
     }
 
     double quantity(double value) const { return _logarithmic ? std::exp(value) : value; }
@@ -207,6 +222,7 @@ private:
         Check c;
         c.node = index((low[2] * length[1] + low[1]) * length[0] + low[0]);
         c.exact = exact(i, j, k);
+        c.promised = counts(i, j, k, 1);
         for (int corner = 0; corner < 8; ++corner)
         {
             double weight = 1;

@@ -19,6 +19,12 @@ namespace {
 
 constexpr int table_nodes = 32;
 
+// E^S of a dielectric has on one axis what E_ss has and where refraction sets in, and falls
+// steeply where eta is near 1. Twice the intervals along the cosine keep the critical one a node.
+constexpr int sum_cosines = 2 * (table_nodes - 1) + 1;
+// From inside, the place and width of the dip about the critical cosine change with all three.
+constexpr int inside_sum_alphas = 48, inside_sum_indices = 63;
+
 // Row 0 is the limit of vanishing alpha at fixed x, which alpha 0 itself does not have.
 constexpr double smallest_alpha = 1e-6;
 
@@ -172,19 +178,26 @@ std::vector<Family::Values> Family::row(const std::vector<double>& xs, double y,
         const AlbedoMoments m = albedo_moments(law, mu, {nodes});
         const auto facet = FresnelMoments<double>::at(mu);
         values.push_back({m.E_ss, m.falloff - facet.falloff, m.dip - facet.dip, 0});
-        if (x < 1e-3) values.back()[0] = x > 0 ? albedo(law, mu_at(x), {}, {nodes}) : 1.0;
+        // E_ss of STD is still far from that limit at any angle of note, where gamma is small; its
+        // end node is what the first cell runs towards.
+        const double first_x = distribution == "std" ? 0.25 / (table_nodes - 1) : 0;
+        if (x < 1e-3)
+        {
+            const double end = std::max(x, first_x);
+            values.back()[0] = end > 0 ? albedo(law, mu_at(end), {}, {nodes}) : 1.0;
+        }
     }
     return values;
 }
 
-bool Family::promised(double x, double y, double z) const
+bool Family::promised(double x, double y, double z, double share) const
 {
     if (kind == Kind::average) return !has_tail_axis() || alpha_of_tailed(x) >= 5e-4;
     if (kind == Kind::dielectric)
     {
         const double alpha = alpha_of_root(y), eta = eta_of_coordinate(z, inside);
         return (inside ? mu_of_critical_cosine(x, alpha, eta) : mu_of_stretched_cosine(x, alpha)) >=
-               0.018;
+               0.018 * share;
     }
     if (!has_tail_axis()) return true;
     const double alpha = alpha_of_tailed(y);
@@ -299,6 +312,12 @@ Definition Definition::of(const std::string& name)
                 info.transmission_shadowing = shadowing;
                 info.side = side;
                 d.width = d.height = d.depth = table_nodes;
+                if (!share) d.width = sum_cosines;
+                if (!share && d.family.inside)
+                {
+                    d.height = inside_sum_alphas;
+                    d.depth = inside_sum_indices;
+                }
                 d.fitted = !share;
                 d.value = share ? (beta ? beta_share : correlated_share)
                                 : (beta ? log_beta_sum : correlated_sum);

@@ -37,8 +37,9 @@ struct Family
     /// along y. `nodes` of the quadrature.
     std::vector<Values> row(const std::vector<double>& x, double y, double z, int nodes) const;
 
-    /// Is (x, y, z) in the range that the error is promised for?
-    bool promised(double x, double y, double z) const;
+    /// Is (x, y, z) in the range that the error is promised for? Of dielectrics `share` of the
+    /// least cosine is the bound.
+    bool promised(double x, double y, double z, double share = 1) const;
 };
 
 /// One table.
@@ -47,8 +48,8 @@ struct Definition
     Family family;
     TableInfo info;  // all but the error
     int width, height, depth;
-    bool fitted;             // levelled for the least largest relative error; else exact
-    double lowest, highest;  // that a node can be
+    bool fitted;                   // levelled for the least largest relative error; else exact
+    double lowest, highest;        // that a node can be
     double smallest_promised = 0;  // no error is promised of a quantity below this
     int node_accuracy, check_accuracy;
     // What nodes are rounded to for a small file.

@@ -93,9 +93,9 @@ Figure make_figure5(const Request& request)
     Figure figure =
         titled("5",
                "E_ss for different microfacet models, 32 x 32; left to right cos theta_o, top to "
-               "bottom sqrt(alpha), both from 0 to 1";
+               "bottom sqrt(alpha), both from 0 to 1");
 
-               constexpr int scale = 8, gap = 16, side = nodes * scale);
+    constexpr int scale = 8, gap = 16, side = nodes * scale;
     constexpr int count = static_cast<int>(std::size(models));
     Picture picture;
     picture.width = count * side + (count - 1) * gap;

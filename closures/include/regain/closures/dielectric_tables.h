@@ -14,7 +14,8 @@
 ///     x   of the cosine. With s(t, a) = sqrt(t / (t + a (1 - t))), which gathers nodes within a of
 ///         t = 0,
 ///           side 0   s(mu, alpha), as for conductors
-///           side 1   kappa lies at the fixed coordinate c = 15/31, a node of 32, and
+///           side 1   kappa lies at the fixed coordinate c = 15/31, a node of 32
+///             and of 63, and
 ///             mu < kappa    c (0.6 s(t, a) + 0.4 (1 - s(1 - t, a))),  t = mu / kappa,
 ///                           a = alpha / kappa
 ///             mu >= kappa   c + (1 - c) s(t, a),  t = (mu - kappa) / (1 - kappa),

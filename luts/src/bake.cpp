@@ -287,8 +287,9 @@ std::vector<std::string> dielectric_table_names(const std::string& distribution,
     info.gamma = distribution == "gtr" || distribution == "std" ? gamma : 0;
     std::vector<std::string> names;
     for (const char* side : {"outside", "inside"})
-        for (const char* shadowing : {"correlated", "beta"})
-            for (const char* quantity : {"E_S", "R_share"})
+        // By quantity, whose tables are of one size and come out of one lattice.
+        for (const char* quantity : {"E_S", "R_share"})
+            for (const char* shadowing : {"correlated", "beta"})
             {
                 info.side = side;
                 info.transmission_shadowing = shadowing;

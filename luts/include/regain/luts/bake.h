@@ -54,8 +54,8 @@ REGAIN_LUTS_API void require_bakeable(const std::string& name);
 /// neighbourhood: it halves the error at no cost. Nodes may come to lie a little above 1; look-ups
 /// are limited to 1.
 ///
-/// Tables that come out of the same integral, as E_S and R_share, are quick to bake one after the
-/// other: what was integrated last is remembered.
+/// Tables of one size that come out of the same integral, as E_S in either form of shadowing, are
+/// quick to bake one after the other: what was integrated last is remembered.
 REGAIN_LUTS_API Table bake(const std::string& name, const BakeProgress& progress = {});
 
 /// Coordinates in [0, 1] of a table's axes; those of axes that are not there are ignored.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright Contributors to the Regain project
 
+#include <regain/closures/refraction.h>
 #include <regain/luts/dielectric_integral.h>
 
 #include "rules.h"
@@ -47,6 +48,7 @@ public:
           _eta(eta),
           _k((eta - 1) * (eta + 1)),
           _sin_o(std::sqrt(std::max(0.0, (1 - mu) * (1 + mu)))),
+          _wo(_sin_o, 0, mu),
           _theta_o(std::atan2(_sin_o, mu)),
           _sigma_o(law.projected_area(mu)),
           _lambda_o(std::max(0.0, _sigma_o / mu - 1)),
@@ -142,24 +144,34 @@ private:
                 const double q = 0.5 * miss * miss + 2 * B * h * h, m_z = 1 - q;
                 if (m_z <= 0) continue;
                 const double slope = std::sqrt(q * (2 - q)) / m_z, m_z2 = m_z * m_z;
-                f(m_z, common * dpsi * _law.density(slope) / (m_z2 * m_z2));
+                f(m_z, facet(c, s, psi, m_z), common * dpsi * _law.density(slope) / (m_z2 * m_z2));
             }
         };
 
         const double last = psi_at(_lowest_z);  // where D ends
-        over(0, std::min(last, psi_at(_mu / (2 * c))), [&](double m_z, double weight) {
-            _sum.reflected += weight * F * correlated(2 * c * m_z - _mu);
-        });
+        over(0, std::min(last, psi_at(_mu / (2 * c))),
+             [&](double m_z, const Vec3<double>& m, double weight) {
+                 if (!is_reflection(_wo, m * (2 * c) - _wo, m)) return;
+                 _sum.reflected += weight * F * correlated(2 * c * m_z - _mu);
+             });
         if (g2 <= 0) return;
         // wt.z eta = (c - g) m_z - mu has to be negative.
         const double bend = -_k / (c + g);
         const double first = bend > 0 ? psi_at(_mu / bend) : 0;
-        over(first, last, [&](double m_z, double weight) {
+        over(first, last, [&](double m_z, const Vec3<double>& m, double weight) {
+            const Vec3<double> wt = (m * bend - _wo) * (1 / _eta);
+            if (!is_transmission(_wo, wt, m)) return;
             const double mu_t = std::min(1.0, (_mu - bend * m_z) / _eta);
-            if (mu_t <= 0) return;
             _sum.transmitted_correlated += weight * (1 - F) * correlated(mu_t);
             _sum.transmitted_beta += weight * (1 - F) * beta(mu_t);
         });
+    }
+
+    // The normal at the angle theta from wo and psi about it; m_z is known better than a sum gives
+    // it.
+    Vec3<double> facet(double c, double s, double psi, double m_z) const
+    {
+        return {c * _sin_o - s * _mu * std::cos(psi), s * std::sin(psi), m_z};
     }
 
     // G2 / G1.
@@ -178,7 +190,9 @@ private:
 
     const SlopeLaw& _law;
     const QuadratureRule& _rule;
-    double _mu, _eta, _k, _sin_o, _theta_o, _sigma_o, _lambda_o, _log_gamma_o;
+    double _mu, _eta, _k, _sin_o;
+    Vec3<double> _wo;
+    double _theta_o, _sigma_o, _lambda_o, _log_gamma_o;
     double _lowest_z;  // of a facet's normal
     DielectricAlbedo _sum{0, 0, 0};
 };

@@ -148,6 +148,44 @@ TEST(Std, two_is_ggx)
     }
 }
 
+// STD(gamma) is a Gamma mixture of Beckmann laws: 1 / b^2 has the shape gamma - 1 and the rate
+// (gamma - 1) alpha^2 (d'Eon 2023). With y = exp(t) the trapezoidal rule over t is exact to
+// rounding.
+TEST(Std, is_a_gamma_mixture_of_beckmann)
+{
+    for (double gamma : {1.55, 2.0, 3.5, 20.0})
+        for (double alpha : {0.05, 0.4, 1.0})
+        {
+            const STD<double> law(alpha, gamma);
+            const double shape = gamma - 1, rate = shape * alpha * alpha;
+            for (double tangent : {0.0, 0.1, 1.0, 8.0})
+            {
+                const double z = 1 / std::sqrt(1 + tangent * tangent);
+                const Vec3<double> w(tangent * z, 0, z);
+                double weight = 0, D = 0, area = 0;
+                constexpr double step = 0.02;
+                for (double t = -700; t < 12; t += step)
+                {
+                    const double y = std::exp(t) / rate;
+                    const double p = step * std::exp(shape * t - std::exp(t)) / std::tgamma(shape);
+                    // In slopes, as alphas beyond 1 are none to the library.
+                    const double s = 1 / std::sqrt(y), c = z / (s * tangent * z + 1e-300);
+                    weight += p;
+                    D +=
+                        p * y / std::acos(-1.0) * std::exp(-y * tangent * tangent) / std::pow(z, 4);
+                    area += p * (tangent > 0 ? 0.5 * (z * (1 + std::erf(c)) +
+                                                      s * tangent * z * std::exp(-c * c) /
+                                                          std::sqrt(std::acos(-1.0)))
+                                             : z);
+                }
+                EXPECT_NEAR(weight, 1, 1e-9);
+                EXPECT_NEAR(law.D(w) / D, 1, 1e-9) << gamma << " " << alpha << " " << tangent;
+                EXPECT_NEAR(law.projected_area(w) / area, 1, 1e-9)
+                    << gamma << " " << alpha << " " << tangent;
+            }
+        }
+}
+
 // The difference goes with 1 / gamma.
 TEST(Std, large_gamma_tends_to_beckmann)
 {

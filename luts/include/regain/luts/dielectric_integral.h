@@ -3,7 +3,8 @@
 
 /// @file
 /// What a rough interface between two dielectrics reflects and transmits in one scattering, in
-/// double precision and without any of the closures' code:
+/// double precision and without any of the closures' code but their rule for which pairs of
+/// directions a facet joins (refraction.h), so that tables and closures leave out the same:
 ///
 ///   E^R(wo) = int D_visible(m) F(wo.m) G2(wo, wr) / G1(wo) dm          over wr above the surface
 ///   E^T(wo) = int D_visible(m) (1 - F(wo.m)) G2(wo, wt) / G1(wo) dm    over wt below it

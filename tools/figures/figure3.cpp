@@ -9,6 +9,7 @@
 
 #include <regain/closures/diffuse.h>
 #include <regain/closures/sheen.h>
+#include <regain/luts/albedo_integral.h>
 
 #include <fmt/format.h>
 
@@ -69,11 +70,12 @@ Figure make_figure3(const Request& request)
                            "incidence.",
                            added_grazing, added_normal),
                added_grazing > 10 * added_normal));
-    figure.findings.push_back(tested(
+    const double lost = 1 - luts::ggx_average_albedo(1);
+    figure.findings.push_back(shown(
         "It does not follow roughness, so it has to be adjusted whenever that is edited.",
-        "The lobe has no roughness at all: the same energy is added whatever the base loses. A "
-        "white GGX mirror of alpha 1 lacks 0.59 on average, sheen gives back 0.012.",
-        true));
+        fmt::format("The lobe has no roughness at all: it adds what it adds, whether the base "
+                    "loses nothing or, as a white GGX mirror of alpha 1, {:.2f} on average.",
+                    lost)));
     figure.numbers = {{"added_mu_0.02", added_grazing}, {"added_mu_1", added_normal}};
     return figure;
 }

@@ -29,12 +29,11 @@ Comparison compared(const Request& request, Figure& figure, const char* what, bo
 {
     const Compensation methods[] = {Method::none, Method::turquin, shaders::RandomWalk{}};
     Comparison c;
-    c.table = {
-        fmt::format("{}: difference from the walk, root mean square over pixels (that of two "
-                    "noisy pictures), and seconds",
-                    what),
-        {"alpha", "none", "turquin", "seconds: none", "turquin", "walk"},
-        {}};
+    c.table = {fmt::format("{}: difference from the walk, root mean square over blocks "
+                           "of 16 x 16 pixels, and seconds",
+                           what),
+               {"alpha", "none", "turquin", "seconds: none", "turquin", "walk"},
+               {}};
     std::vector<Picture> cells;
     for (const double alpha : roughnesses)
     {
@@ -83,7 +82,8 @@ Figure make_figure9(const Request& request)
     const Comparison clear = compared(request, figure, "transmission", true, glass);
     figure.findings.push_back(
         tested("The visual difference between ours and the random walk is minimal.",
-               fmt::format("Root mean square difference from the walk, worst of three roughnesses: "
+               fmt::format("Root mean square difference from the walk over blocks of 16 x 16 "
+                           "pixels, worst of three roughnesses: "
                            "gold {:.3f} (without compensation {:.3f}), glass {:.3f} ({:.3f}).",
                            metal.ours_off, metal.none_off, clear.ours_off, clear.none_off),
                metal.ours_off < 0.5 * metal.none_off && clear.ours_off < 0.5 * clear.none_off));

@@ -101,23 +101,27 @@ Picture tiled(const std::vector<Picture>& cells, int columns)
     return all;
 }
 
-Imath::Color3<double> mean(const Picture& picture)
-{
-    Imath::Color3<double> sum(0.0);
-    for (const Imath::C3f& p : picture.pixels) sum += Imath::Color3<double>(p);
-    return sum / static_cast<double>(picture.pixels.size());
-}
-
 double difference(const Picture& a, const Picture& b)
 {
+    constexpr int block = 16;
     double sum = 0;
-    for (std::size_t i = 0; i < a.pixels.size(); ++i)
-        for (int c = 0; c < 3; ++c)
+    int blocks = 0;
+    for (int y0 = 0; y0 < a.height; y0 += block)
+        for (int x0 = 0; x0 < a.width; x0 += block)
         {
-            const double d = static_cast<double>(a.pixels[i][c]) - b.pixels[i][c];
-            sum += d * d;
+            Imath::Color3<double> off(0.0);
+            const int x1 = std::min(x0 + block, a.width), y1 = std::min(y0 + block, a.height);
+            for (int y = y0; y < y1; ++y)
+                for (int x = x0; x < x1; ++x)
+                {
+                    const auto i = static_cast<std::size_t>(y * a.width + x);
+                    off += Imath::Color3<double>(a.pixels[i]) - Imath::Color3<double>(b.pixels[i]);
+                }
+            off *= 1.0 / ((x1 - x0) * (y1 - y0));
+            sum += (off.x * off.x + off.y * off.y + off.z * off.z) / 3;
+            ++blocks;
         }
-    return std::sqrt(sum / (3.0 * static_cast<double>(a.pixels.size())));
+    return std::sqrt(sum / blocks);
 }
 
 void write_pictures(const Request& request, Figure& figure, const std::string& name,

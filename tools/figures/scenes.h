@@ -41,8 +41,8 @@ CellPicture render_cell(const Request&, const std::string& label, const Cell&, i
 /// Cells of equal size as one picture, `columns` to a row.
 Picture tiled(const std::vector<Picture>& cells, int columns);
 
-/// Mean of all pixels; the root of the mean square difference of two pictures of one size.
-Imath::Color3<double> mean(const Picture&);
+/// The root of the mean square difference of two pictures of one size, over
+/// means of 16 x 16 pixels, so that noise counts for little.
 double difference(const Picture&, const Picture&);
 
 /// Writes NAME.exr and NAME.png to the request's folder and adds the PNG to the figure. `raw`

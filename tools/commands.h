@@ -19,5 +19,6 @@ void add_figures(CLI::App& app, int& exit_code);
 void add_albedo(CLI::App& app, int& exit_code);
 void add_query(CLI::App& app, int& exit_code);
 void add_bake(CLI::App& app, int& exit_code);
+void add_conform(CLI::App& app, int& exit_code);
 
 }  // namespace regain::tools

@@ -22,6 +22,7 @@ int main(int argc, char** argv)
     add_albedo(app, exit_code);
     add_query(app, exit_code);
     add_bake(app, exit_code);
+    add_conform(app, exit_code);
 
     try
     {

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+/// @file
+/// A closure with its parameters still open, and what is promised of it. The kit makes closures of
+/// it all over the range of its parameters and holds them to the promises.
+
+#pragma once
+
+#include <regain/conformance/tested_closure.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+REGAIN_NAMESPACE_BEGIN
+namespace conformance {
+
+/// What reflects at a facet. White is F = 1 in every channel: nothing is absorbed.
+enum class Reflectance { white, schlick, conductor };
+
+/// Everything that a closure may be made of; each subject says which of these it reads. A hostile
+/// value of any of them has to give a closure, too.
+struct Parameters
+{
+    double alpha_x = 0.25, alpha_y = 0.25;  ///< microfacet widths in [0, 1]
+    double gamma = 2;                       ///< tail parameter
+    double eta = 1.5;                       ///< index on the -z side over the index on the +z side
+    Reflectance reflectance = Reflectance::white;
+    Color F0{1.0}, F82{1.0};  ///< schlick: colour at normal incidence; tint at cosine 1/7
+    Color n{1.0}, k{0.0};     ///< conductor: complex index per channel
+    bool in_double = true;    ///< compute in double, or else in float
+};
+
+/// Which parameters a subject reads.
+struct Reads
+{
+    bool alpha = false;       ///< alpha_x, alpha_y
+    bool two_alphas = false;  ///< they may differ
+    bool gamma = false;
+    double lowest_gamma = 0, highest_gamma = 0;
+    bool eta = false;
+    bool schlick = false, conductor = false;
+    bool single = false, twice = false;  ///< precisions it computes in; at least one
+};
+
+/// How compensation acts on the lobe that it compensates.
+enum class Form { none, gain, added_lobe, replaced };
+
+/// What holds in numbers, beyond the Traits, of one closure along one direction. Each may be
+/// nothing, where nothing is promised. Defaults are those of a single-scattering lobe.
+struct Promises
+{
+    /// The albedo is at most 1 + this: for anything that emits no light.
+    std::optional<double> surplus = 2e-4;
+    /// Where traits say energy_preserving, a white closure's albedo is within this of 1.
+    std::optional<double> furnace = 2e-3;
+    /// albedo() is within this of what the closure reflects and transmits.
+    std::optional<double> albedo = 2e-3;
+    /// The albedo is within this of the reference subject's.
+    std::optional<double> tint;
+    /// No sample weighs more.
+    std::optional<double> weight = 1;
+};
+
+class Subject
+{
+public:
+    virtual ~Subject() = default;
+
+    /// Unique in a run; letters, digits, '-', '_' and '.'.
+    virtual std::string name() const = 0;
+    virtual Reads reads() const = 0;
+
+    /// Never null: what cannot be made is sanitised.
+    virtual std::unique_ptr<TestedClosure> make(const Parameters&) const = 0;
+    virtual Promises promises(const Parameters&, const Direction& /*wo*/) const { return {}; }
+
+    /// The lobe that this one compensates, or null; and how.
+    virtual const Subject* bare() const { return nullptr; }
+    virtual Form form() const { return Form::none; }
+    /// What tinted albedos are compared with, or null: all bounces, simulated.
+    virtual const Subject* reference() const { return nullptr; }
+    /// Names of the tables that it looks up.
+    virtual std::vector<std::string> tables() const { return {}; }
+};
+
+}  // namespace conformance
+REGAIN_NAMESPACE_END

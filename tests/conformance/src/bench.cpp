@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+#include "check.h"
+
+#include <cmath>
+#include <cstdio>
+
+REGAIN_NAMESPACE_BEGIN
+namespace conformance {
+namespace {
+
+constexpr std::size_t second_look_factor = 16;
+
+}  // namespace
+
+Effort Bench::effort() const
+{
+    Effort e;
+    if (tier() == Tier::thorough)
+    {
+        e = e.times(8);
+        e.evaluations *= 4;
+        e.tolerance = 1e-5;
+    }
+    return _second_look ? e.times(second_look_factor) : e;
+}
+
+TestedClosure& Bench::closure()
+{
+    if (!_closure)
+    {
+        _closure = _subject.make(_setting.parameters);
+        _closure->prepare(_setting.wo);
+    }
+    return *_closure;
+}
+
+const Survey& Bench::survey()
+{
+    if (!_survey)
+        _survey = conformance::survey(closure(), _setting.wo, effort(), random("survey").bits());
+    return *_survey;
+}
+
+Random Bench::random(std::string_view check) const
+{
+    const std::string name = _subject.name() + ":" + std::string(check) + ":" + _setting.name +
+                             (_second_look ? ":second" : "");
+    return Random(hash_of(name, _options.salt));
+}
+
+Outcome Outcome::within(double measured, double bound, std::string detail)
+{
+    Outcome o;
+    o.measured = measured;
+    o.bound = bound;
+    o.probability = measured <= bound ? 1 : 0;  // NaN fails
+    o.detail = std::move(detail);
+    return o;
+}
+
+const std::vector<Check>& checks()
+{
+    static const std::vector<Check> all = [] {
+        std::vector<Check> list;
+        for (const auto& some : {pdf_checks(), energy_checks()})
+            list.insert(list.end(), some.begin(), some.end());
+        return list;
+    }();
+    return all;
+}
+
+std::string shown(double x)
+{
+    char text[32];
+    std::snprintf(text, sizeof text, "%.17g", x);
+    return text;
+}
+std::string shown(const Direction& w)
+{
+    return "[" + shown(w.x) + ", " + shown(w.y) + ", " + shown(w.z) + "]";
+}
+std::string shown(const Color& c) { return shown(Direction(c.x, c.y, c.z)); }
+
+double largest(const Color& c)
+{
+    const double most = std::max({std::abs(c.x), std::abs(c.y), std::abs(c.z)});
+    return std::isnan(c.x) || std::isnan(c.y) || std::isnan(c.z) ? std::nan("") : most;
+}
+
+}  // namespace conformance
+REGAIN_NAMESPACE_END

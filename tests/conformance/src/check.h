@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+/// @file
+/// One check, what it works with, and what it answers.
+
+#pragma once
+
+#include "random.h"
+#include "settings.h"
+#include "survey.h"
+
+#include <atomic>
+#include <optional>
+
+REGAIN_NAMESPACE_BEGIN
+namespace conformance {
+
+/// What a check has at hand: one subject, one setting. What is expensive is made when it is first
+/// asked for, and then shared by all checks of the setting.
+class Bench
+{
+public:
+    /// second_look: other random numbers, and more of them.
+    Bench(const Subject& subject, const Setting& setting, const Options& options, bool second_look,
+          const std::atomic<bool>& stop)
+        : _subject(subject),
+          _setting(setting),
+          _options(options),
+          _second_look(second_look),
+          _stop(stop)
+    {}
+
+    const Subject& subject() const { return _subject; }
+    const Setting& setting() const { return _setting; }
+    Tier tier() const { return _options.tier; }
+    Effort effort() const;
+
+    /// The closure of the setting, prepared for its direction.
+    TestedClosure& closure();
+    Traits traits() { return closure().traits(); }
+    const Survey& survey();
+    Promises promises() const { return _subject.promises(_setting.parameters, _setting.wo); }
+    const Parameters& parameters() const { return _setting.parameters; }
+
+    /// Random numbers of one check alone, the same in every run.
+    Random random(std::string_view check) const;
+
+    /// Someone asked to stop: a long check returns soon, whatever it then says.
+    bool stopped() const { return _stop; }
+
+private:
+    const Subject& _subject;
+    const Setting& _setting;
+    const Options& _options;
+    bool _second_look;
+    const std::atomic<bool>& _stop;
+    std::unique_ptr<TestedClosure> _closure;
+    std::optional<Survey> _survey;
+};
+
+struct Outcome
+{
+    double measured = 0, bound = 0;
+    /// Of as much, if nothing is wrong. A check without chance says 0 or 1.
+    double probability = 1;
+    std::string detail, note;
+    std::shared_ptr<const Histogram> histogram;
+
+    static Outcome within(double measured, double bound, std::string detail = {});
+};
+
+/// How often a check is run.
+enum class Scope { subject, parameters, direction };
+
+struct Check
+{
+    const char* id;
+    const char* title;
+    Scope scope;
+    bool by_chance;
+    /// Why the check says nothing about this subject, or an empty string. Asked once.
+    std::string (*why_not)(const Subject&, const Traits&);
+    /// No outcome: nothing can be said of this setting.
+    std::optional<Outcome> (*run)(Bench&);
+};
+
+const std::vector<Check>& checks();
+
+// The checks, by what they are about; one file each.
+std::vector<Check> pdf_checks();
+std::vector<Check> energy_checks();
+
+/// For details: every digit that counts.
+std::string shown(double x);
+std::string shown(const Direction& w);
+std::string shown(const Color& c);
+
+double largest(const Color& c);
+
+}  // namespace conformance
+REGAIN_NAMESPACE_END

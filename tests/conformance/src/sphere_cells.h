@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+/// @file
+/// Cells of the sphere of directions, small where a lobe is narrow: the bins of a histogram, and
+/// the pieces of an integral.
+///
+/// The sphere is eight charts: four quarter turns, from the azimuth of wo on, of either hemisphere.
+/// In a chart (x, y) in [0, 1]^2 a direction has
+///     |z| = 1 - x^2,   phi = azimuth + pi / 2 (quarter + y),   dw = pi x dx dy
+/// so the horizon, the pole and the plane of incidence are edges. Cells halve both coordinates.
+
+#pragma once
+
+#include <regain/conformance/tested_closure.h>
+
+#include <functional>
+#include <vector>
+
+REGAIN_NAMESPACE_BEGIN
+namespace conformance {
+
+/// A place on the sphere in the coordinates above.
+struct ChartPoint
+{
+    int chart = 0;  ///< quarter + 4 below the horizon
+    double x = 0, y = 0;
+};
+
+class Charts
+{
+public:
+    explicit Charts(const Direction& wo);
+    ChartPoint place_of(const Direction& w) const;
+    Direction direction_of(const ChartPoint& p) const;
+
+private:
+    double _azimuth;
+};
+
+/// What is integrated: a density and a value, at one direction.
+struct Density
+{
+    double pdf = 0;
+    Color value{0.0};
+
+    void add(const Density& other, double weight)
+    {
+        pdf += other.pdf * weight;
+        value += other.value * weight;
+    }
+};
+
+/// A histogram's bin, and the integrals over it.
+struct Bin
+{
+    ChartPoint corner;  ///< lowest
+    double size = 1;    ///< of its sides
+    Density integral;
+    double error = 0;  ///< estimated, of integral.pdf and of the largest channel
+};
+
+class SphereCells
+{
+public:
+    /// Bins that hold no more than a `share` of the lobe's directions each, as far as halving goes.
+    SphereCells(const Direction& wo, const std::vector<Direction>& lobe, double share);
+
+    /// Integrates over every bin, halving where it pays, until the estimated errors add up to less
+    /// than `tolerance` or f was asked `most` times. Returns the sum of the errors.
+    double integrate(const std::function<Density(const Direction&)>& f, double tolerance,
+                     std::size_t most);
+
+    const Charts& charts() const { return _charts; }
+    const std::vector<Bin>& bins() const { return _bins; }
+    std::size_t bin_of(const Direction& w) const;
+
+private:
+    struct Node
+    {
+        ChartPoint corner;
+        double size;
+        int children = -1;  // the first of four, or none
+        int bin = -1;
+    };
+
+    void grow(std::size_t node, std::vector<ChartPoint> points, std::size_t most, int depth);
+
+    Charts _charts;
+    std::vector<Node> _nodes;  // the charts first
+    std::vector<Bin> _bins;
+};
+
+}  // namespace conformance
+REGAIN_NAMESPACE_END

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+#include "survey.h"
+
+#include "random.h"
+
+#include <algorithm>
+#include <cmath>
+
+REGAIN_NAMESPACE_BEGIN
+namespace conformance {
+namespace {
+
+// Evenly spread samples come in groups, each from a random start, whose means are independent.
+constexpr std::size_t groups = 32;
+
+// Bins hold this share of the lobe each.
+constexpr double bin_share = 1.0 / 256;
+constexpr std::size_t scouts = 1 << 14;
+
+void add(std::array<RunningMean, 3>& means, const Color& c)
+{
+    for (int k = 0; k < 3; ++k) means[static_cast<std::size_t>(k)].add(c[k]);
+}
+
+Color mean_of(const std::array<RunningMean, 3>& means)
+{
+    return {means[0].mean(), means[1].mean(), means[2].mean()};
+}
+
+bool same_side(const Direction& a, const Direction& b) { return (a.z < 0) == (b.z < 0); }
+
+// Where the lobe is: what the bins are made for.
+std::vector<Direction> scout(const TestedClosure& closure, Random& random)
+{
+    std::vector<Direction> lobe;
+    EvenPoints even(random.cube());
+    for (std::size_t i = 0; i < scouts; ++i)
+    {
+        const Sample<double> s = closure.sample(even.next());
+        if (s.valid && !s.delta) lobe.push_back(s.wi);
+    }
+    // A few from everywhere, so that no part of the sphere is one bin.
+    for (std::size_t i = 0; i < scouts / 16; ++i) lobe.push_back(random.direction());
+    return lobe;
+}
+
+void take_even_samples(const TestedClosure& closure, std::size_t n, Random& random, Survey& out)
+{
+    const Color zero(0.0);
+    const std::size_t each = std::max<std::size_t>(1, n / groups);
+    const double share = 1.0 / static_cast<double>(each);
+    Color delta_reflect(0.0), delta_transmit(0.0);
+    std::array<double, 3> squares{};
+    for (std::size_t g = 0; g < groups; ++g)
+    {
+        EvenPoints even(random.cube());
+        double nothing = 0, delta = 0;
+        Color reflect(0.0), transmit(0.0);
+        for (std::size_t i = 0; i < each; ++i)
+        {
+            const Direction u = even.next();
+            const Sample<double> s = closure.sample(u);
+            if (!s.valid)
+            {
+                nothing += share;
+                continue;
+            }
+            (s.transmitted ? transmit : reflect) += s.weight * share;
+            if (s.delta)
+            {
+                delta += share;
+                (s.transmitted ? delta_transmit : delta_reflect) += s.weight * share;
+            }
+            for (int k = 0; k < 3; ++k)
+            {
+                squares[static_cast<std::size_t>(k)] += s.weight[k] * s.weight[k] * share;
+                if (s.weight[k] > out.largest_weight || std::isnan(s.weight[k]))
+                {
+                    out.largest_weight = s.weight[k];
+                    out.heaviest = {u, s};
+                }
+            }
+        }
+        out.nothing.add(nothing);
+        out.delta.add(delta);
+        add(out.weight.reflect, reflect);
+        add(out.weight.transmit, transmit);
+        add(out.weight.both, reflect + transmit);
+    }
+    out.delta_reflect = delta_reflect * (1.0 / groups);
+    out.delta_transmit = delta_transmit * (1.0 / groups);
+    for (std::size_t k = 0; k < 3; ++k) out.weight_squares[k] = squares[k] / groups;
+}
+
+// The mean of estimates of eval over the sphere: a bin by its share of the pdf, a place in it
+// evenly, the estimate by numbers of its own.
+void estimate_values(const TestedClosure& closure, const SphereCells& cells, std::size_t n,
+                     Random& random, Survey& out)
+{
+    const std::vector<Bin>& bins = cells.bins();
+    const double pi = std::acos(-1.0), even_share = 0.2;
+    std::vector<double> up_to(bins.size());
+    double sum = 0, pdf = 0, area = 0;
+    for (const Bin& b : bins) pdf += b.integral.pdf, area += b.size * b.size;
+    const auto chance = [&](const Bin& b) {
+        const double flat = b.size * b.size / area;
+        return pdf > 0 ? even_share * flat + (1 - even_share) * b.integral.pdf / pdf : flat;
+    };
+    for (std::size_t b = 0; b < bins.size(); ++b) up_to[b] = sum += chance(bins[b]);
+
+    const std::size_t each = std::max<std::size_t>(1, n / groups);
+    for (std::size_t g = 0; g < groups; ++g)
+    {
+        EvenPoints even(random.cube());
+        Color reflect(0.0), transmit(0.0);
+        for (std::size_t i = 0; i < each; ++i)
+        {
+            const Direction v = even.next();
+            const auto place = std::upper_bound(up_to.begin(), up_to.end(), v.z * sum);
+            const Bin& b =
+                bins[std::min(bins.size() - 1, static_cast<std::size_t>(place - up_to.begin()))];
+            const ChartPoint p{b.corner.chart, b.corner.x + b.size * v.x,
+                               b.corner.y + b.size * v.y};
+            const Direction wi = cells.charts().direction_of(p);
+            const double weight = pi * p.x * b.size * b.size * sum / chance(b);
+            const Color value =
+                closure.eval(wi, random.cube()) * (weight / static_cast<double>(each));
+            (same_side(wi, out.wo) ? reflect : transmit) += value;
+        }
+        add(out.estimated.reflect, reflect + out.delta_reflect);
+        add(out.estimated.transmit, transmit + out.delta_transmit);
+        add(out.estimated.both, reflect + transmit + out.delta_reflect + out.delta_transmit);
+    }
+}
+
+}  // namespace
+
+Effort Effort::times(std::size_t factor) const
+{
+    Effort e = *this;
+    e.samples *= factor;
+    e.even_samples *= factor;
+    e.estimates *= factor;
+    return e;
+}
+
+Color Survey::reflected() const
+{
+    return traits.stochastic_eval ? mean_of(estimated.reflect) : reflect + delta_reflect;
+}
+Color Survey::transmitted() const
+{
+    return traits.stochastic_eval ? mean_of(estimated.transmit) : transmit + delta_transmit;
+}
+Color Survey::total() const { return reflected() + transmitted(); }
+
+Survey survey(TestedClosure& closure, const Direction& wo, const Effort& effort, std::uint64_t seed)
+{
+    Random random(seed);
+    Survey out;
+    out.wo = wo;
+    out.traits = closure.traits();
+    closure.prepare(wo);
+
+    const auto made = std::make_shared<SphereCells>(wo, scout(closure, random), bin_share);
+    SphereCells& cells = *made;
+    const bool exact = !out.traits.stochastic_eval;
+    out.error = cells.integrate(
+        [&](const Direction& wi) {
+            return Density{closure.pdf(wi), exact ? closure.eval(wi, Direction(0.5)) : Color(0.0)};
+        },
+        effort.tolerance, effort.evaluations);
+    out.resolved = out.error <= effort.tolerance;
+    for (const Bin& b : cells.bins())
+    {
+        out.pdf += b.integral.pdf;
+        ((b.corner.chart < 4) == (wo.z >= 0) ? out.reflect : out.transmit) += b.integral.value;
+    }
+    take_even_samples(closure, effort.even_samples, random, out);
+    if (!exact) estimate_values(closure, cells, effort.estimates, random, out);
+    out.cells = made;
+    return out;
+}
+
+std::vector<double> histogram(const TestedClosure& closure, const SphereCells& cells, std::size_t n,
+                              std::uint64_t seed)
+{
+    Random random(seed);
+    std::vector<double> found(cells.bins().size(), 0);
+    for (std::size_t i = 0; i < n; ++i)
+    {
+        const Sample<double> s = closure.sample(random.cube());
+        if (s.valid && !s.delta) ++found[cells.bin_of(s.wi)];
+    }
+    return found;
+}
+
+}  // namespace conformance
+REGAIN_NAMESPACE_END

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+/// @file
+/// All that can be seen of a closure along one direction, seen once for all checks: the integrals
+/// of pdf and eval over the sphere, and what samples come to. Nothing but the closure's own answers
+/// goes in.
+
+#pragma once
+
+#include "sphere_cells.h"
+#include "statistics.h"
+
+#include <array>
+#include <memory>
+
+REGAIN_NAMESPACE_BEGIN
+namespace conformance {
+
+/// How hard to look.
+struct Effort
+{
+    std::size_t samples = 1 << 18;       ///< independent ones, for histograms
+    std::size_t even_samples = 1 << 16;  ///< evenly spread ones, for means
+    std::size_t evaluations = 1 << 19;   ///< at most, of an integral
+    std::size_t estimates = 1 << 17;     ///< of a value that is one
+    double tolerance = 1e-4;             ///< of an integral
+
+    Effort times(std::size_t factor) const;
+};
+
+/// What one sample's numbers were.
+struct Drawn
+{
+    Direction u{0.0};
+    Sample<double> sample;
+};
+
+/// A mean per channel, of what is reflected, transmitted, both.
+struct MeanColor
+{
+    std::array<RunningMean, 3> reflect, transmit, both;
+};
+
+struct Survey
+{
+    Direction wo;
+    Traits traits;
+
+    // The integrals: of pdf over the sphere, of eval over either side. `error` is the estimated
+    // error of the worst of them. Where eval is an estimate, `value` is its mean over the sphere
+    // instead, with its own errors.
+    double pdf = 0, error = 0;
+    bool resolved = false;  ///< the error is below the tolerance
+    Color reflect{0.0}, transmit{0.0};
+    MeanColor estimated;
+
+    // The samples.
+    RunningMean nothing, delta;  ///< shares; means over groups of evenly spread samples
+    MeanColor weight;            ///< likewise
+    double largest_weight = 0;
+    Drawn heaviest;
+    std::array<double, 3> weight_squares{};         ///< mean square
+    Color delta_reflect{0.0}, delta_transmit{0.0};  ///< mean weight of those without density
+
+    /// Bins that follow the lobe, with the integrals over them.
+    std::shared_ptr<const SphereCells> cells;
+
+    /// Integral of eval, delta lobes included.
+    Color total() const;
+    Color reflected() const;
+    Color transmitted() const;
+};
+
+/// `closure` is prepared for wo by this.
+Survey survey(TestedClosure& closure, const Direction& wo, const Effort& effort,
+              std::uint64_t seed);
+
+/// How many of n independent samples with a density fall into each bin. The closure is prepared.
+std::vector<double> histogram(const TestedClosure& closure, const SphereCells& cells, std::size_t n,
+                              std::uint64_t seed);
+
+}  // namespace conformance
+REGAIN_NAMESPACE_END

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+#include "conform_promises.h"
+
+#include "any_closure.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace regain::tools {
+namespace {
+
+using conformance::Promises;
+using shaders::DistributionKind;
+
+// The white furnace of mirrors, docs/support.md "How exact".
+double mirror_furnace(DistributionKind distribution)
+{
+    return shaders::has_gamma(distribution) ? 3e-3 : 1e-3;
+}
+
+// Tinted albedos against the walk, Table 1 of docs/figures.md: the worst of each method.
+std::optional<double> tint_of(const shaders::Compensation& method)
+{
+    if (const auto* form = std::get_if<KullaContyForm>(&method))
+        return *form == KullaContyForm::printed ? 0.09 : 0.05;
+    const auto* gain = std::get_if<Method>(&method);
+    if (!gain) return std::nullopt;
+    switch (*gain)
+    {
+        case Method::turquin: return 0.07;
+        case Method::turquin_eq12: return 0.09;
+        case Method::turquin_eq13: return 0.08;
+        case Method::turquin_eq14: return 0.07;
+        case Method::series: return 0.05;
+        case Method::none:
+        case Method::normalise: break;  // they do not try
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+Promises promises_of(const ClosureSpec& spec, const Imath::V3d& wo)
+{
+    Promises p;
+    const double mu = std::abs(wo.z);
+    const bool isotropic = spec.alpha_x == spec.alpha_y;
+    const double alpha = std::max(spec.alpha_x, spec.alpha_y);
+    const auto* gain = std::get_if<Method>(&spec.method);
+    const bool walks = std::holds_alternative<shaders::RandomWalk>(spec.method);
+    const bool adds = std::holds_alternative<KullaContyForm>(spec.method);
+    const bool compensates = adds || (gain && *gain != Method::none);
+    const bool glass = spec.lobe == Lobe::dielectric && !spec.interface.thin_walled;
+
+    if (spec.lobe == Lobe::sheen)
+    {
+        p.weight = std::nullopt;
+        return p;
+    }
+    if (std::holds_alternative<shaders::BurleySheen>(spec.method))
+    {
+        // It adds what it adds.
+        p.surplus = p.weight = std::nullopt;
+        return p;
+    }
+    p.tint = isotropic && !glass ? tint_of(spec.method) : std::nullopt;
+    p.furnace = glass ? 5e-3 : mirror_furnace(spec.distribution);
+    const bool in_range = glass ? mu >= 0.02 : mu >= 1e-3;
+    if (walks) p.furnace = 5e-4;
+    if (!walks && (!in_range || !isotropic || alpha < 1e-3)) p.furnace = std::nullopt;
+    if (compensates) p.surplus = isotropic ? p.furnace : std::nullopt;
+    return p;
+}
+
+}  // namespace regain::tools

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+#include "conform_subjects.h"
+
+#include "any_closure.h"
+#include "conform_promises.h"
+#include "errors.h"
+
+#include <regain/luts/bake.h>
+
+#include <cmath>
+#include <map>
+
+namespace regain::tools {
+namespace {
+
+using conformance::Form;
+using conformance::Parameters;
+using conformance::Reads;
+using conformance::TestedClosure;
+using shaders::DistributionKind;
+
+// An AnyClosure, whose answers are the closure's to the bit.
+class Tested final : public TestedClosure
+{
+public:
+    explicit Tested(std::unique_ptr<AnyClosure> closure) : _closure(std::move(closure)) {}
+
+    Traits traits() const override { return _closure->traits(); }
+    void prepare(const Imath::V3d& wo) override { _closure->prepare(wo); }
+    ColorD eval(const Imath::V3d& wi, const Imath::V3d& u) const override
+    {
+        return _closure->eval(wi, u);
+    }
+    double pdf(const Imath::V3d& wi) const override { return _closure->pdf(wi); }
+    Sample<double> sample(const Imath::V3d& u) const override { return _closure->sample(u); }
+    Albedo<double> albedo() const override { return _closure->albedo(); }
+
+private:
+    std::unique_ptr<AnyClosure> _closure;
+};
+
+std::string name_of(const ClosureSpec& spec)
+{
+    std::string name(tools::name(spec.lobe));
+    if (spec.interface.thin_walled) name = "thin_dielectric";
+    if (spec.lobe != Lobe::sheen) name += "." + std::string(shaders::name(spec.distribution));
+    name += "." + std::string(shaders::name(spec.method));
+    if (spec.lobe != Lobe::dielectric) return name;
+    if (spec.interface.shadowing == TransmissionShadowing::beta) name += ".beta";
+    if (spec.interface.mode == ScatterMode::R) name += ".R";
+    if (spec.interface.mode == ScatterMode::T) name += ".T";
+    return name;
+}
+
+class BuiltIn final : public conformance::Subject
+{
+public:
+    BuiltIn(const ClosureSpec& spec, const Subject* bare, const Subject* reference)
+        : _spec(spec), _name(name_of(spec)), _bare(bare), _reference(reference)
+    {}
+
+    std::string name() const override { return _name; }
+
+    Reads reads() const override
+    {
+        Reads r;
+        r.single = r.twice = true;
+        if (_spec.lobe == Lobe::sheen) return r;
+        r.alpha = r.two_alphas = true;
+        r.gamma = shaders::has_gamma(_spec.distribution);
+        if (r.gamma)
+        {
+            const bool gtr = _spec.distribution == DistributionKind::gtr;
+            r.lowest_gamma = gtr ? gtr_min_gamma : std_min_gamma;
+            r.highest_gamma = gtr ? gtr_max_gamma : std_max_gamma;
+        }
+        r.eta = _spec.lobe == Lobe::dielectric;
+        r.schlick = _spec.lobe == Lobe::generalized_schlick;
+        r.conductor = _spec.lobe == Lobe::conductor;
+        return r;
+    }
+
+    std::unique_ptr<TestedClosure> make(const Parameters& p) const override
+    {
+        ClosureSpec spec = specified(p);
+        return std::make_unique<Tested>(make_closure(spec, has_albedo_tables()));
+    }
+
+    conformance::Promises promises(const Parameters& p, const Imath::V3d& wo) const override
+    {
+        return promises_of(specified(p), wo);
+    }
+    const Subject* bare() const override { return _bare; }
+    const Subject* reference() const override { return _reference; }
+    Form form() const override
+    {
+        if (const auto* method = std::get_if<Method>(&_spec.method))
+            return *method == Method::none ? Form::none : Form::gain;
+        return std::holds_alternative<shaders::RandomWalk>(_spec.method) ? Form::replaced
+                                                                         : Form::added_lobe;
+    }
+    std::vector<std::string> tables() const override
+    {
+        if (!std::holds_alternative<Method>(_spec.method) || form() == Form::none ||
+            _spec.lobe == Lobe::sheen)
+            return {};
+        const std::string distribution(shaders::name(_spec.distribution));
+        const bool interface = _spec.lobe == Lobe::dielectric && !_spec.interface.thin_walled &&
+                               _spec.interface.mode != ScatterMode::R;
+        if (!interface)
+            return {distribution + "_E_ss", distribution + "_E_avg", distribution + "_falloff",
+                    distribution + "_dip"};
+        std::vector<std::string> names;
+        const bool beta = _spec.interface.shadowing == TransmissionShadowing::beta;
+        for (const std::string& table : luts::dielectric_table_names(distribution))
+            if ((table.find("_beta_") != std::string::npos) == beta) names.push_back(table);
+        return names;
+    }
+
+private:
+    ClosureSpec specified(const Parameters& p) const
+    {
+        using conformance::Reflectance;
+        ClosureSpec spec = _spec;
+        spec.precision = p.in_double ? Precision::twice : Precision::single;
+        spec.alpha_x = p.alpha_x;
+        spec.alpha_y = p.alpha_y;
+        spec.gamma = p.gamma;
+        spec.interface.eta = p.eta;
+        if (spec.lobe == Lobe::dielectric)
+            spec.fresnel = DielectricParameters{p.eta};
+        else if (p.reflectance == Reflectance::schlick)
+            spec.fresnel = SchlickParameters{p.F0, p.F82, ColorD(1.0), 5};
+        else if (p.reflectance == Reflectance::conductor)
+            spec.fresnel = ConductorParameters{p.n, p.k};
+        else
+            spec.fresnel = ConstantParameters{};
+        return spec;
+    }
+
+    // Of dielectrics with a tail none are shipped.
+    bool has_albedo_tables() const
+    {
+        return !(_spec.lobe == Lobe::dielectric && shaders::has_gamma(_spec.distribution));
+    }
+
+    ClosureSpec _spec;
+    std::string _name;
+    const Subject *_bare, *_reference;
+};
+
+class Collection
+{
+public:
+    Collection()
+    {
+        for (const DistributionKind distribution : shaders::all_distributions)
+        {
+            for (const Lobe lobe : {Lobe::conductor, Lobe::generalized_schlick})
+            {
+                ClosureSpec spec;
+                spec.lobe = lobe;
+                spec.distribution = distribution;
+                add_methods(spec);
+            }
+            add_interfaces(distribution);
+        }
+        ClosureSpec sheen;
+        sheen.lobe = Lobe::sheen;
+        add(sheen, nullptr, nullptr);
+    }
+
+    const std::vector<const conformance::Subject*>& all() const { return _all; }
+
+private:
+    const conformance::Subject* add(const ClosureSpec& spec, const conformance::Subject* bare,
+                                    const conformance::Subject* reference)
+    {
+        _owned.push_back(std::make_unique<BuiltIn>(spec, bare, reference));
+        _all.push_back(_owned.back().get());
+        return _all.back();
+    }
+
+    // What the library has no combination or no table for is left out.
+    void add_methods(ClosureSpec spec)
+    {
+        spec.method = Method::none;
+        const conformance::Subject* bare = add(spec, nullptr, nullptr);
+        const bool beta = spec.interface.shadowing == TransmissionShadowing::beta;
+        const conformance::Subject* walk = nullptr;
+        spec.method = shaders::RandomWalk{};
+        if ((spec.lobe != Lobe::dielectric || beta) && exists(spec))
+            walk = add(spec, bare, nullptr);
+        for (const std::string_view method : shaders::compensation_names())
+        {
+            spec.method = *shaders::compensation_named(method);
+            const auto* gain = std::get_if<Method>(&spec.method);
+            if ((gain && *gain == Method::none) ||
+                std::holds_alternative<shaders::RandomWalk>(spec.method))
+                continue;
+            // Of dielectrics these two are one formula, and so are those of Eq. 6.
+            if (spec.lobe == Lobe::dielectric &&
+                (method == "normalise" || method == "kulla-conty-series"))
+                continue;
+            if (exists(spec)) add(spec, bare, walk);
+        }
+    }
+
+    void add_interfaces(DistributionKind distribution)
+    {
+        ClosureSpec spec;
+        spec.lobe = Lobe::dielectric;
+        spec.fresnel = DielectricParameters{};
+        spec.distribution = distribution;
+        for (const auto shadowing :
+             {TransmissionShadowing::correlated, TransmissionShadowing::beta})
+        {
+            spec.interface.shadowing = shadowing;
+            add_methods(spec);
+        }
+        spec.interface.shadowing = TransmissionShadowing::correlated;
+        for (const ScatterMode mode : {ScatterMode::R, ScatterMode::T})
+        {
+            spec.interface.mode = mode;
+            add_methods(spec);
+        }
+        spec.interface.mode = ScatterMode::RT;
+        spec.interface.thin_walled = true;
+        add_methods(spec);
+    }
+
+    static bool exists(const ClosureSpec& spec)
+    {
+        try
+        {
+            make_closure(spec);
+            return true;
+        }
+        catch (const BadInput&)
+        {
+            return false;
+        }
+    }
+
+    std::vector<std::unique_ptr<BuiltIn>> _owned;
+    std::vector<const conformance::Subject*> _all;
+};
+
+}  // namespace
+
+const std::vector<const conformance::Subject*>& built_in_subjects()
+{
+    static const Collection collection;
+    return collection.all();
+}
+
+}  // namespace regain::tools

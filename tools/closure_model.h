@@ -72,12 +72,14 @@ private:
     {
         return {static_cast<Real>(w.x), static_cast<Real>(w.y), static_cast<Real>(w.z)};
     }
-    // Below 1 also after rounding.
+    // Below 1 also after rounding; quiet where a number is none.
     static Vec3<Real> rounded_numbers(const Imath::V3d& u)
     {
-        const Real most = std::nextafter(Real(1), Real(0));
-        const Vec3<Real> r = rounded(u);
-        return {std::min(r.x, most), std::min(r.y, most), std::min(r.z, most)};
+        Vec3<Real> r = rounded(u);
+        for (int k = 0; k < 3; ++k)
+            if (std::isless(u[k], 1.0) && !std::isless(r[k], Real(1)))
+                r[k] = std::nextafter(Real(1), Real(0));
+        return r;
     }
     static Albedo<double> wide(const Albedo<Real>& a)
     {

@@ -40,6 +40,14 @@ std::optional<double> tint_of(const shaders::Compensation& method)
     return std::nullopt;
 }
 
+double largest_gain(const ClosureSpec& spec, const Imath::V3d& wo)
+{
+    const auto closure = make_closure(spec, true);
+    closure->prepare(wo);
+    const ColorD gain = closure->gain().gain;
+    return std::max({gain.x, gain.y, gain.z});
+}
+
 }  // namespace
 
 Promises promises_of(const ClosureSpec& spec, const Imath::V3d& wo)
@@ -65,12 +73,30 @@ Promises promises_of(const ClosureSpec& spec, const Imath::V3d& wo)
         p.surplus = p.weight = std::nullopt;
         return p;
     }
+    // Exact conductors are looked up by two moments of Schlick's curve.
+    if (spec.lobe == Lobe::conductor && std::holds_alternative<ConductorParameters>(spec.fresnel))
+        p.albedo = 1.2e-2;
     p.tint = isotropic && !glass ? tint_of(spec.method) : std::nullopt;
     p.furnace = glass ? 5e-3 : mirror_furnace(spec.distribution);
     const bool in_range = glass ? mu >= 0.02 : mu >= 1e-3;
-    if (walks) p.furnace = 5e-4;
+    if (walks)
+    {
+        p.furnace = 5e-4;
+        // Looked up as that of the series.
+        if (!glass && !std::holds_alternative<ConstantParameters>(spec.fresnel)) p.albedo = 0.05;
+    }
     if (!walks && (!in_range || !isotropic || alpha < 1e-3)) p.furnace = std::nullopt;
-    if (compensates) p.surplus = isotropic ? p.furnace : std::nullopt;
+    if (!isotropic)
+    {
+        // Compensated, and tabulated, by one width.
+        p.albedo = std::nullopt;
+        if (compensates) p.surplus = std::nullopt;
+    }
+    else if (compensates)
+        p.surplus = p.furnace;
+    // The bare lobe's weights are at most 1; those of an added lobe at most 1.4 times what it
+    // returns.
+    if (compensates) p.weight = std::max(largest_gain(spec, wo), adds ? 1.4 : 1.0);
     return p;
 }
 

@@ -7,10 +7,16 @@
 #include "conform_promises.h"
 #include "errors.h"
 
-#include <regain/luts/bake.h>
+#include "table_check.h"
 
-#include <cmath>
+#include <regain/luts/bake.h>
+#include <regain/luts/builtin.h>
+#include <regain/luts/exr.h>
+#include <regain/luts/library.h>
+
+#include <filesystem>
 #include <map>
+#include <mutex>
 
 namespace regain::tools {
 namespace {
@@ -40,6 +46,58 @@ public:
 private:
     std::unique_ptr<AnyClosure> _closure;
 };
+
+template <class Distribution>
+class Normals final : public conformance::TestedNormals
+{
+public:
+    explicit Normals(const Distribution& distribution) : _distribution(distribution) {}
+
+    double D(const Imath::V3d& m) const override { return _distribution.D(m); }
+    double projected_area(const Imath::V3d& w) const override
+    {
+        return _distribution.projected_area(w);
+    }
+    double G1(const Imath::V3d& w) const override { return _distribution.G1(w); }
+    double G2(const Imath::V3d& wo, const Imath::V3d& wi) const override
+    {
+        return _distribution.G2(wo, wi);
+    }
+    Imath::V3d sample_visible(const Imath::V3d& wo, const Imath::V3d& u) const override
+    {
+        return _distribution.visible(wo).sample(u);
+    }
+
+private:
+    Distribution _distribution;
+};
+
+// The file that was loaded.
+luts::Table file_of(const std::string& table)
+{
+    for (const std::filesystem::path& folder : luts::table_folders())
+        if (const auto file = folder / (table + ".exr"); std::filesystem::exists(file))
+            return luts::read_table(file);
+    throw BadInput("there is no file of the table " + table);
+}
+
+// Many subjects share a table, which is compared once.
+conformance::TableError table_error(const std::string& table, int places)
+{
+    if (places == 0) return {table, {}, 0, 1};
+    static std::mutex mutex;
+    static std::map<std::pair<std::string, int>, conformance::TableError> known;
+    const std::lock_guard<std::mutex> lock(mutex);
+    const auto found = known.find({table, places});
+    if (found != known.end()) return found->second;
+    const TableView view = luts::table_named(table);
+    const SpotTolerance tolerance =
+        luts::builtin_table(table) ? spot_tolerance(table) : spot_tolerance(file_of(table));
+    const TableCheck check = check_spots(table, view, tolerance, "loaded", places);
+    const conformance::TableError error{table, check.worst ? check.worst->where : "its worst place",
+                                        check.largest_difference, tolerance.largest};
+    return known[{table, places}] = error;
+}
 
 std::string name_of(const ClosureSpec& spec)
 {
@@ -77,6 +135,7 @@ public:
             r.highest_gamma = gtr ? gtr_max_gamma : std_max_gamma;
         }
         r.eta = _spec.lobe == Lobe::dielectric;
+        r.one_medium = _spec.interface.thin_walled;
         r.schlick = _spec.lobe == Lobe::generalized_schlick;
         r.conductor = _spec.lobe == Lobe::conductor;
         return r;
@@ -101,25 +160,43 @@ public:
         return std::holds_alternative<shaders::RandomWalk>(_spec.method) ? Form::replaced
                                                                          : Form::added_lobe;
     }
-    std::vector<std::string> tables() const override
+    std::string family() const override
     {
-        if (!std::holds_alternative<Method>(_spec.method) || form() == Form::none ||
-            _spec.lobe == Lobe::sheen)
-            return {};
+        return _name.substr(0, _name.rfind("." + std::string(shaders::name(_spec.method))));
+    }
+    std::unique_ptr<conformance::TestedNormals> normals(const Parameters& p) const override
+    {
+        if (_spec.lobe != Lobe::conductor || form() != Form::none) return nullptr;
+        return with_distribution<double>(
+            specified(p), [](const auto& d) -> std::unique_ptr<conformance::TestedNormals> {
+                return std::make_unique<Normals<std::decay_t<decltype(d)>>>(d);
+            });
+    }
+    std::vector<conformance::TableError> table_errors(int places) const override
+    {
+        std::vector<conformance::TableError> errors;
+        for (const std::string& table : table_names()) errors.push_back(table_error(table, places));
+        return errors;
+    }
+
+private:
+    std::vector<std::string> table_names() const
+    {
+        if (form() != Form::gain) return {};
         const std::string distribution(shaders::name(_spec.distribution));
-        const bool interface = _spec.lobe == Lobe::dielectric && !_spec.interface.thin_walled &&
-                               _spec.interface.mode != ScatterMode::R;
-        if (!interface)
-            return {distribution + "_E_ss", distribution + "_E_avg", distribution + "_falloff",
-                    distribution + "_dip"};
+        const bool glass = _spec.lobe == Lobe::dielectric && !_spec.interface.thin_walled;
         std::vector<std::string> names;
+        for (const char* quantity : {"E_ss", "E_avg", "falloff", "dip"})
+            names.push_back(distribution + "_" + quantity);
+        // A mode that only reflects is a mirror's.
+        if (!glass || _spec.interface.mode == ScatterMode::R) return names;
+        names.clear();
         const bool beta = _spec.interface.shadowing == TransmissionShadowing::beta;
         for (const std::string& table : luts::dielectric_table_names(distribution))
             if ((table.find("_beta_") != std::string::npos) == beta) names.push_back(table);
         return names;
     }
 
-private:
     ClosureSpec specified(const Parameters& p) const
     {
         using conformance::Reflectance;

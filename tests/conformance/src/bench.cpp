@@ -3,8 +3,10 @@
 
 #include "check.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 
 REGAIN_NAMESPACE_BEGIN
 namespace conformance {
@@ -24,6 +26,12 @@ Effort Bench::effort() const
         e.tolerance = 1e-5;
     }
     return _second_look ? e.times(second_look_factor) : e;
+}
+
+std::size_t Bench::hostile_inputs() const
+{
+    if (tier() == Tier::commit) return 1'000'000;
+    return 100'000'000 / std::max<std::size_t>(1, _siblings);
 }
 
 TestedClosure& Bench::closure()
@@ -64,8 +72,14 @@ const std::vector<Check>& checks()
 {
     static const std::vector<Check> all = [] {
         std::vector<Check> list;
-        for (const auto& some : {pdf_checks(), energy_checks()})
+        for (const auto& some :
+             {trait_checks(), normals_checks(), totality_checks(), pdf_checks(), energy_checks(),
+              reference_checks(), symmetry_checks(), limit_checks(), hook_checks()})
             list.insert(list.end(), some.begin(), some.end());
+        // By number.
+        std::sort(list.begin(), list.end(), [](const Check& a, const Check& b) {
+            return std::atoi(a.id + 1) < std::atoi(b.id + 1);
+        });
         return list;
     }();
     return all;

@@ -22,10 +22,12 @@ class Bench
 {
 public:
     /// second_look: other random numbers, and more of them.
-    Bench(const Subject& subject, const Setting& setting, const Options& options, bool second_look,
-          const std::atomic<bool>& stop)
+    /// siblings: subjects of its family in the run.
+    Bench(const Subject& subject, const Setting& setting, std::size_t siblings,
+          const Options& options, bool second_look, const std::atomic<bool>& stop)
         : _subject(subject),
           _setting(setting),
+          _siblings(siblings),
           _options(options),
           _second_look(second_look),
           _stop(stop)
@@ -35,6 +37,8 @@ public:
     const Setting& setting() const { return _setting; }
     Tier tier() const { return _options.tier; }
     Effort effort() const;
+    /// How many hostile inputs the subject is given.
+    std::size_t hostile_inputs() const;
 
     /// The closure of the setting, prepared for its direction.
     TestedClosure& closure();
@@ -52,6 +56,7 @@ public:
 private:
     const Subject& _subject;
     const Setting& _setting;
+    std::size_t _siblings;
     const Options& _options;
     bool _second_look;
     const std::atomic<bool>& _stop;
@@ -88,8 +93,15 @@ struct Check
 const std::vector<Check>& checks();
 
 // The checks, by what they are about; one file each.
-std::vector<Check> pdf_checks();
-std::vector<Check> energy_checks();
+std::vector<Check> trait_checks();      // C0
+std::vector<Check> normals_checks();    // C1
+std::vector<Check> totality_checks();   // C2
+std::vector<Check> pdf_checks();        // C3, C4, C5, C13
+std::vector<Check> energy_checks();     // C6, C7, C8, C17
+std::vector<Check> reference_checks();  // C9, C14, C15
+std::vector<Check> symmetry_checks();   // C10, C12
+std::vector<Check> limit_checks();      // C11
+std::vector<Check> hook_checks();       // C16
 
 /// For details: every digit that counts.
 std::string shown(double x);

@@ -27,13 +27,12 @@ struct Energy
     }
 };
 
-// What leaves in all, by the best there is: the integral of eval, estimates of it, or samples.
+// What leaves in all, by the best there is: the integral of eval, or samples.
 Energy total_energy(const Survey& s, std::size_t channel)
 {
     if (!s.traits.stochastic_eval && s.resolved)
         return {s.total()[static_cast<int>(channel)], nullptr};
-    const auto& means = s.traits.stochastic_eval ? s.estimated.both : s.weight.both;
-    return {means[channel].mean(), &means[channel]};
+    return {s.weight.both[channel].mean(), &s.weight.both[channel]};
 }
 
 // --- C6

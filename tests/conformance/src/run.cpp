@@ -9,6 +9,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <exception>
+#include <map>
 #include <mutex>
 #include <stdexcept>
 #include <thread>
@@ -29,6 +30,7 @@ struct Job
 {
     const Subject* subject;
     Setting setting;
+    std::size_t siblings;
     std::vector<std::pair<const Check*, std::size_t>> checks;  // and the verdict each adds to
 };
 
@@ -59,6 +61,8 @@ bool applies_to(const Check& check, const Setting& setting, bool first)
 Plan plan(const std::vector<const Subject*>& subjects, const Options& options)
 {
     Plan p;
+    std::map<std::string, std::size_t> family_size;
+    for (const Subject* subject : subjects) ++family_size[subject->family()];
     for (const Subject* subject : subjects)
     {
         if (subject->name().find(options.subject) == std::string::npos) continue;
@@ -81,7 +85,7 @@ Plan plan(const std::vector<const Subject*>& subjects, const Options& options)
         bool first = true;
         for (Setting& setting : settings_of(*subject, options.tier))
         {
-            Job job{subject, std::move(setting), {}};
+            Job job{subject, std::move(setting), family_size[subject->family()], {}};
             for (const auto& [check, verdict] : wanted)
                 if (applies_to(*check, job.setting, first)) job.checks.emplace_back(check, verdict);
             first = false;
@@ -181,7 +185,7 @@ private:
 
     void look(const Job& job)
     {
-        Bench bench(*job.subject, job.setting, _options, false, _stop);
+        Bench bench(*job.subject, job.setting, job.siblings, _options, false, _stop);
         std::optional<Bench> second;
         for (const auto& [check, verdict] : job.checks)
         {
@@ -189,7 +193,8 @@ private:
             std::optional<Outcome> outcome = check->run(bench);
             if (outcome && check->by_chance && outcome->probability < _level)
             {
-                if (!second) second.emplace(*job.subject, job.setting, _options, true, _stop);
+                if (!second)
+                    second.emplace(*job.subject, job.setting, job.siblings, _options, true, _stop);
                 outcome = check->run(*second);
             }
             if (outcome && !_stop)

@@ -64,7 +64,8 @@ private:
     {
         Vec3<Real> r = rounded(u);
         for (int k = 0; k < 3; ++k)
-            if (u[k] < 1 && r[k] >= Real(1)) r[k] = std::nextafter(Real(1), Real(0));
+            if (std::isless(u[k], 1.0) && !std::isless(r[k], Real(1)))
+                r[k] = std::nextafter(Real(1), Real(0));
         return r;
     }
 

@@ -41,6 +41,7 @@ struct Reads
     bool gamma = false;
     double lowest_gamma = 0, highest_gamma = 0;
     bool eta = false;
+    bool one_medium = false;  ///< on both sides, as of a sheet: eta is of what lies between
     bool schlick = false, conductor = false;
     bool single = false, twice = false;  ///< precisions it computes in; at least one
 };
@@ -64,6 +65,26 @@ struct Promises
     std::optional<double> weight = 1;
 };
 
+/// A distribution of microfacet normals, alone; see regain/closures/distribution.h for what each of
+/// these is. Any w, wo, wi is unit; wo.z of either sign for visible normals.
+class TestedNormals
+{
+public:
+    virtual ~TestedNormals() = default;
+    virtual double D(const Direction& m) const = 0;
+    virtual double projected_area(const Direction& w) const = 0;
+    virtual double G1(const Direction& w) const = 0;
+    virtual double G2(const Direction& wo, const Direction& wi) const = 0;
+    virtual Direction sample_visible(const Direction& wo, const Direction& u) const = 0;
+};
+
+/// A look-up that was compared with an exact value.
+struct TableError
+{
+    std::string table, where;  ///< the table; the place of the largest error in it
+    double measured = 0, bound = 0;
+};
+
 class Subject
 {
 public:
@@ -82,8 +103,13 @@ public:
     virtual Form form() const { return Form::none; }
     /// What tinted albedos are compared with, or null: all bounces, simulated.
     virtual const Subject* reference() const { return nullptr; }
-    /// Names of the tables that it looks up.
-    virtual std::vector<std::string> tables() const { return {}; }
+    /// Its microfacets, in double, or null.
+    virtual std::unique_ptr<TestedNormals> normals(const Parameters&) const { return nullptr; }
+    /// The tables that it looks up, each compared with exact values at so many places.
+    virtual std::vector<TableError> table_errors(int /*places*/) const { return {}; }
+    /// What counts as one closure where work is spread: of the hostile inputs of a thorough run,
+    /// subjects of one family take their shares.
+    virtual std::string family() const { return name(); }
 };
 
 }  // namespace conformance

@@ -71,11 +71,14 @@ Promises promises_of(const ClosureSpec& spec, const Imath::V3d& wo)
     {
         // It adds what it adds.
         p.surplus = p.weight = std::nullopt;
+        if (!isotropic) p.albedo = std::nullopt;
         return p;
     }
     // Exact conductors are looked up by two moments of Schlick's curve.
     if (spec.lobe == Lobe::conductor && std::holds_alternative<ConductorParameters>(spec.fresnel))
         p.albedo = 1.2e-2;
+    // How much of what an interface sends back and on is reflected.
+    if (glass && spec.interface.mode != ScatterMode::RT) p.albedo = 0.05;
     p.tint = isotropic && !glass ? tint_of(spec.method) : std::nullopt;
     p.furnace = glass ? 5e-3 : mirror_furnace(spec.distribution);
     const bool in_range = glass ? mu >= 0.02 : mu >= 1e-3;

@@ -22,16 +22,14 @@ Effort Bench::effort() const
     if (tier() == Tier::thorough)
     {
         e = e.times(8);
-        e.evaluations *= 4;
-        e.tolerance = 1e-5;
     }
     return _second_look ? e.times(second_look_factor) : e;
 }
 
 std::size_t Bench::hostile_inputs() const
 {
-    if (tier() == Tier::commit) return 1'000'000;
-    return 100'000'000 / std::max<std::size_t>(1, _siblings);
+    const std::size_t family = tier() == Tier::commit ? 1'000'000 : 100'000'000;
+    return family / std::max<std::size_t>(1, _siblings) + 1;
 }
 
 TestedClosure& Bench::closure()

@@ -35,8 +35,14 @@ Energy total_energy(const Survey& s, std::size_t channel)
     return {s.weight.both[channel].mean(), &s.weight.both[channel]};
 }
 
-// --- C6
-// -------------------------------------------------------------------------------------------
+std::string needs_own_values(const Subject& subject, const Traits&)
+{
+    if (subject.form() == Form::gain && subject.bare())
+        return "C3 and C16 say it of its weights and values, and this of " + subject.bare()->name();
+    return {};
+}
+
+// --- C6 ----------------------------------------------------------------------------------------
 
 // Samples of the closure and of the whole sphere, each weighed against both densities (the balance
 // heuristic, Veach 1997, Section 9.2.2): what a renderer does with a light that is everywhere.
@@ -83,20 +89,25 @@ std::optional<Outcome> estimators_agree(Bench& bench)
     constexpr int comparisons = 12;
     const Survey& s = bench.survey();
     if (!s.traits.stochastic_eval && !s.resolved) return std::nullopt;
+    const bool estimated = s.traits.stochastic_eval;
     const MeanColor both = by_both(bench);
+    const MeanColor means = estimated
+                                ? estimated_integrals(bench.closure(), s, bench.effort().estimates,
+                                                      bench.random("C6 estimates").bits())
+                                : MeanColor{};
     const Color reflected = s.reflected(), transmitted = s.transmitted();
 
     Outcome worst;
     worst.bound = bound;
-    const auto compare = [&](const RunningMean& mean, double value, const RunningMean* estimated,
+    const auto compare = [&](const RunningMean& mean, double value, const RunningMean* of_value,
                              const char* how, const char* where, int channel) {
         const double off = std::abs(mean.mean() - value);
         // The error of the integral, where it is an estimate itself, adds to that of the mean.
         double p = 1;
         if (const double beyond = off - bound; !(beyond <= 0))
         {
-            const double error = std::hypot(mean.standard_error(),
-                                            estimated ? estimated->standard_error() : s.error);
+            const double error =
+                std::hypot(mean.standard_error(), of_value ? of_value->standard_error() : s.error);
             p = error > 0 ? student_tail(beyond / error, 31) : 0;
             if (std::isnan(off)) p = 0;
         }
@@ -113,18 +124,19 @@ std::optional<Outcome> estimators_agree(Bench& bench)
     for (int c = 0; c < 3; ++c)
     {
         const auto k = static_cast<std::size_t>(c);
-        const auto* r = s.traits.stochastic_eval ? &s.estimated.reflect[k] : nullptr;
-        const auto* t = s.traits.stochastic_eval ? &s.estimated.transmit[k] : nullptr;
-        compare(s.weight.reflect[k], reflected[c], r, "mean weight", "reflected", c);
-        compare(s.weight.transmit[k], transmitted[c], t, "mean weight", "transmitted", c);
-        compare(both.reflect[k], reflected[c], r, "both samplers", "reflected", c);
-        compare(both.transmit[k], transmitted[c], t, "both samplers", "transmitted", c);
+        const RunningMean *r = &means.reflect[k], *t = &means.transmit[k];
+        const double R = estimated ? r->mean() : reflected[c],
+                     T = estimated ? t->mean() : transmitted[c];
+        if (!estimated) r = t = nullptr;
+        compare(s.weight.reflect[k], R, r, "mean weight", "reflected", c);
+        compare(s.weight.transmit[k], T, t, "mean weight", "transmitted", c);
+        compare(both.reflect[k], R, r, "both samplers", "reflected", c);
+        compare(both.transmit[k], T, t, "both samplers", "transmitted", c);
     }
     return worst;
 }
 
-// --- C7
-// -------------------------------------------------------------------------------------------
+// --- C7 ----------------------------------------------------------------------------------------
 
 std::optional<Outcome> no_energy_is_made(Bench& bench)
 {
@@ -140,15 +152,14 @@ std::optional<Outcome> no_energy_is_made(Bench& bench)
         const Energy e = total_energy(s, k);
         if (e.value - 1 <= worst.measured) continue;
         worst.measured = e.value - 1;
-        worst.probability = e.value <= 1 + surplus ? 1 : e.beyond(1, surplus);
+        const bool holds = e.value <= 1 + surplus;
+        worst.probability = holds ? 1 : std::isnan(e.value) ? 0 : e.beyond(1, surplus);
         worst.detail = "the albedo of channel " + std::to_string(k) + " is " + shown(e.value);
     }
-    if (std::isnan(s.total().x + s.total().y + s.total().z)) worst.probability = 0;
     return worst;
 }
 
-// --- C8
-// -------------------------------------------------------------------------------------------
+// --- C8 ----------------------------------------------------------------------------------------
 
 std::string needs_preserving(const Subject&, const Traits& traits)
 {
@@ -175,8 +186,7 @@ std::optional<Outcome> all_energy_is_kept(Bench& bench)
     return worst;
 }
 
-// --- C17
-// ------------------------------------------------------------------------------------------
+// --- C17 ---------------------------------------------------------------------------------------
 
 // A host that lays the closure over a white diffuse base gives the base what albedo() leaves:
 // f + (1 - E) / pi cos. Its furnace is off by as much as albedo() is.
@@ -208,7 +218,7 @@ std::optional<Outcome> layers_neither_gain_nor_lose(Bench& bench)
 std::vector<Check> energy_checks()
 {
     return {
-        {"C6", "three estimators of the albedo agree", Scope::direction, true, needs_nothing,
+        {"C6", "three estimators of the albedo agree", Scope::direction, true, needs_own_values,
          estimators_agree},
         {"C7", "no energy is made", Scope::direction, true, needs_nothing, no_energy_is_made},
         {"C8", "with F = 1 no energy is lost", Scope::direction, true, needs_preserving,

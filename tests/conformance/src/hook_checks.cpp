@@ -20,8 +20,7 @@ bool equal(const Sample<double>& a, const Sample<double>& b)
            a.transmitted == b.transmitted;
 }
 
-// --- C0
-// -------------------------------------------------------------------------------------------
+// --- C0 ----------------------------------------------------------------------------------------
 
 // The other traits have checks of their own: C5 the pdf, C8 energy, C10 reciprocity, C12 rotation.
 std::optional<Outcome> traits_are_true(Bench& bench)
@@ -77,8 +76,7 @@ std::optional<Outcome> traits_are_true(Bench& bench)
     return o;
 }
 
-// --- C16
-// ------------------------------------------------------------------------------------------
+// --- C16 ---------------------------------------------------------------------------------------
 
 std::string needs_a_gain(const Subject& subject, const Traits&)
 {

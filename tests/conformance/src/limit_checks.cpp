@@ -51,22 +51,27 @@ public:
             }
     }
 
-    // Next to eta = 1 all light goes straight on.
+    // At eta = 1 there is no interface, and all light goes straight on: but what a lobe is added
+    // for. On the way there transmission becomes a delta lobe.
     void indices()
     {
         if (!_reads.eta || !_bench.traits().transmissive) return;
         for (const double alpha : {0.0, 0.25, 1.0})
         {
-            Parameters one;
-            one.eta = 1;
-            one.alpha_x = one.alpha_y = alpha;
-            straight_on(one);
-            if (!_reads.twice) continue;
-            for (const double eta : {1 - 1e-6, 1 + 1e-6})
+            Parameters p;
+            p.eta = 1;
+            p.alpha_x = p.alpha_y = alpha;
+            p.in_double = _reads.twice;
+            if (_bench.subject().form() != Form::added_lobe) straight_on(p);
+            const double edge = delta_edge(p);
+            if (edge == 0) continue;
+            for (const double side : {1.0, -1.0})
             {
-                Parameters next = one;
-                next.eta = eta;
-                for (const double mu : {0.9, 0.3}) compare(one, next, mu, "at eta " + shown(eta));
+                Parameters below = p, above = p;
+                below.eta = 1 + side * edge;
+                above.eta = 1 + side * edge * 1.0001;
+                for (const double mu : {0.9, 0.3})
+                    compare(below, above, mu, "at eta " + shown(below.eta));
             }
         }
     }
@@ -118,6 +123,27 @@ private:
         {
             const double middle = 0.5 * (lo + hi);
             (is_mirror(std::exp(middle)) ? lo : hi) = middle;
+        }
+        return std::exp(lo);
+    }
+
+    // The largest eta - 1 at which transmission is a delta lobe, or 0: it always is, or never.
+    double delta_edge(Parameters p)
+    {
+        const auto is_delta = [&](double off) {
+            p.eta = 1 + off;
+            const auto closure = _bench.subject().make(p);
+            closure->prepare(direction_at(0.7));
+            const Sample<double> s = closure->sample(Direction(0.4, 0.6, 0.99));
+            return s.valid && s.delta && s.transmitted;
+        };
+        if (!is_delta(0) || is_delta(0.5)) return 0;
+        double lo = -34, hi = std::log(0.5);
+        if (!is_delta(std::exp(lo))) return 0;
+        for (int i = 0; i < 60; ++i)
+        {
+            const double middle = 0.5 * (lo + hi);
+            (is_delta(std::exp(middle)) ? lo : hi) = middle;
         }
         return std::exp(lo);
     }

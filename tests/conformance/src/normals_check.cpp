@@ -22,7 +22,6 @@ SphereCells cells_about(const TestedNormals& normals, const Direction& w, Random
 {
     std::vector<Direction> lobe;
     for (int i = 0; i < 4096; ++i) lobe.push_back(normals.sample_visible(w, random.cube()));
-    for (int i = 0; i < 256; ++i) lobe.push_back(random.direction());
     return SphereCells(w, lobe, 1.0 / 128);
 }
 

@@ -15,6 +15,8 @@ const double pi = std::acos(-1.0);
 
 // Halving stops where double no longer tells directions apart by x = sin(theta / 2).
 constexpr int deepest = 40;
+// No part of the sphere is one bin, lobe or not.
+constexpr int shallowest = 2;
 constexpr double smallest = 0x1p-44;
 
 // The Gauss-Legendre rule of 4 nodes on [0, 1] (Abramowitz and Stegun, Table 25.4).
@@ -35,9 +37,39 @@ double largest_difference(const Density& a, const Density& b)
     return most;
 }
 
+// Points that are not spread over a cell but gathered in a part of it, where a rule of few nodes
+// may see nothing.
+bool gathered(const std::vector<ChartPoint>& points, const ChartPoint& corner, double size)
+{
+    if (points.size() < 4) return false;
+    std::array<bool, 16> taken{};
+    for (const ChartPoint& p : points)
+    {
+        const auto place = [size](double x, double from) {
+            return static_cast<std::size_t>(std::clamp(4 * (x - from) / size, 0.0, 3.0));
+        };
+        taken[4 * place(p.x, corner.x) + place(p.y, corner.y)] = true;
+    }
+    const auto found = static_cast<double>(std::count(taken.begin(), taken.end(), true));
+    // Of 16 boxes, points that fall anywhere leave this many empty.
+    const double expected = 16 * (1 - std::pow(15.0 / 16, static_cast<double>(points.size())));
+    return found < 0.6 * expected;
+}
+
+std::array<std::vector<ChartPoint>, 4> quartered(const std::vector<ChartPoint>& points,
+                                                 const ChartPoint& corner, double half)
+{
+    std::array<std::vector<ChartPoint>, 4> parts;
+    for (const ChartPoint& p : points)
+        parts[(p.x >= corner.x + half) + 2 * (p.y >= corner.y + half)].push_back(p);
+    return parts;
+}
+
+}  // namespace
+
 // A piece of a bin, with the integrals over its quarters and how far they are from one rule over
 // the whole.
-struct Piece
+struct SphereCells::Piece
 {
     std::size_t bin;
     ChartPoint corner;
@@ -47,8 +79,6 @@ struct Piece
 
     bool operator<(const Piece& other) const { return error < other.error; }
 };
-
-}  // namespace
 
 Charts::Charts(const Direction& wo) : _azimuth(std::atan2(wo.y, wo.x)) {}
 
@@ -91,17 +121,16 @@ SphereCells::SphereCells(const Direction& wo, const std::vector<Direction>& lobe
 void SphereCells::grow(std::size_t node, std::vector<ChartPoint> points, std::size_t most,
                        int depth)
 {
-    if (points.size() <= most || depth == deepest)
+    if (depth >= shallowest && (points.size() <= most || depth == deepest))
     {
         _nodes[node].bin = static_cast<int>(_bins.size());
         _bins.push_back({_nodes[node].corner, _nodes[node].size, {}, 0});
+        _lobe.push_back(std::move(points));
         return;
     }
     const ChartPoint corner = _nodes[node].corner;
     const double half = 0.5 * _nodes[node].size;
-    std::array<std::vector<ChartPoint>, 4> parts;
-    for (const ChartPoint& p : points)
-        parts[(p.x >= corner.x + half) + 2 * (p.y >= corner.y + half)].push_back(p);
+    std::array<std::vector<ChartPoint>, 4> parts = quartered(points, corner, half);
     points = {};
     const auto first = _nodes.size();
     _nodes[node].children = static_cast<int>(first);
@@ -158,12 +187,23 @@ double SphereCells::integrate(const std::function<Density(const Direction&)>& f,
     std::vector<Piece> pieces;  // a heap, the worst first
     std::vector<Piece> done;
     double error = 0;
+    const std::function<void(std::size_t, const ChartPoint&, double,
+                             const std::vector<ChartPoint>&)>
+        begin = [&](std::size_t bin, const ChartPoint& corner, double size,
+                    const std::vector<ChartPoint>& points) {
+            if (!gathered(points, corner, size) || size < smallest)
+            {
+                pieces.push_back(piece(bin, corner, size, over(corner, size)));
+                error += pieces.back().error;
+                return;
+            }
+            const auto parts = quartered(points, corner, 0.5 * size);
+            for (int q = 0; q < 4; ++q)
+                begin(bin, quarter_of(corner, 0.5 * size, q), 0.5 * size,
+                      parts[static_cast<std::size_t>(q)]);
+        };
     for (std::size_t b = 0; b < _bins.size(); ++b)
-    {
-        pieces.push_back(
-            piece(b, _bins[b].corner, _bins[b].size, over(_bins[b].corner, _bins[b].size)));
-        error += pieces.back().error;
-    }
+        begin(b, _bins[b].corner, _bins[b].size, _lobe[b]);
     std::make_heap(pieces.begin(), pieces.end());
     while (!pieces.empty() && error > tolerance && asked < most)
     {

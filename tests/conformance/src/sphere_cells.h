@@ -63,7 +63,8 @@ struct Bin
 class SphereCells
 {
 public:
-    /// Bins that hold no more than a `share` of the lobe's directions each, as far as halving goes.
+    /// Bins that hold no more than a `share` of the lobe's directions each, as far as halving goes;
+    /// 128 at least.
     SphereCells(const Direction& wo, const std::vector<Direction>& lobe, double share);
 
     /// Integrates over every bin, halving where it pays, until the estimated errors add up to less
@@ -84,11 +85,14 @@ private:
         int bin = -1;
     };
 
+    struct Piece;
+
     void grow(std::size_t node, std::vector<ChartPoint> points, std::size_t most, int depth);
 
     Charts _charts;
     std::vector<Node> _nodes;  // the charts first
     std::vector<Bin> _bins;
+    std::vector<std::vector<ChartPoint>> _lobe;  // the lobe's directions in each bin
 };
 
 }  // namespace conformance

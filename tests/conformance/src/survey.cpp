@@ -24,11 +24,6 @@ void add(std::array<RunningMean, 3>& means, const Color& c)
     for (int k = 0; k < 3; ++k) means[static_cast<std::size_t>(k)].add(c[k]);
 }
 
-Color mean_of(const std::array<RunningMean, 3>& means)
-{
-    return {means[0].mean(), means[1].mean(), means[2].mean()};
-}
-
 bool same_side(const Direction& a, const Direction& b) { return (a.z < 0) == (b.z < 0); }
 
 // Where the lobe is: what the bins are made for.
@@ -41,8 +36,6 @@ std::vector<Direction> scout(const TestedClosure& closure, Random& random)
         const Sample<double> s = closure.sample(even.next());
         if (s.valid && !s.delta) lobe.push_back(s.wi);
     }
-    // A few from everywhere, so that no part of the sphere is one bin.
-    for (std::size_t i = 0; i < scouts / 16; ++i) lobe.push_back(random.direction());
     return lobe;
 }
 
@@ -94,47 +87,6 @@ void take_even_samples(const TestedClosure& closure, std::size_t n, Random& rand
     for (std::size_t k = 0; k < 3; ++k) out.weight_squares[k] = squares[k] / groups;
 }
 
-// The mean of estimates of eval over the sphere: a bin by its share of the pdf, a place in it
-// evenly, the estimate by numbers of its own.
-void estimate_values(const TestedClosure& closure, const SphereCells& cells, std::size_t n,
-                     Random& random, Survey& out)
-{
-    const std::vector<Bin>& bins = cells.bins();
-    const double pi = std::acos(-1.0), even_share = 0.2;
-    std::vector<double> up_to(bins.size());
-    double sum = 0, pdf = 0, area = 0;
-    for (const Bin& b : bins) pdf += b.integral.pdf, area += b.size * b.size;
-    const auto chance = [&](const Bin& b) {
-        const double flat = b.size * b.size / area;
-        return pdf > 0 ? even_share * flat + (1 - even_share) * b.integral.pdf / pdf : flat;
-    };
-    for (std::size_t b = 0; b < bins.size(); ++b) up_to[b] = sum += chance(bins[b]);
-
-    const std::size_t each = std::max<std::size_t>(1, n / groups);
-    for (std::size_t g = 0; g < groups; ++g)
-    {
-        EvenPoints even(random.cube());
-        Color reflect(0.0), transmit(0.0);
-        for (std::size_t i = 0; i < each; ++i)
-        {
-            const Direction v = even.next();
-            const auto place = std::upper_bound(up_to.begin(), up_to.end(), v.z * sum);
-            const Bin& b =
-                bins[std::min(bins.size() - 1, static_cast<std::size_t>(place - up_to.begin()))];
-            const ChartPoint p{b.corner.chart, b.corner.x + b.size * v.x,
-                               b.corner.y + b.size * v.y};
-            const Direction wi = cells.charts().direction_of(p);
-            const double weight = pi * p.x * b.size * b.size * sum / chance(b);
-            const Color value =
-                closure.eval(wi, random.cube()) * (weight / static_cast<double>(each));
-            (same_side(wi, out.wo) ? reflect : transmit) += value;
-        }
-        add(out.estimated.reflect, reflect + out.delta_reflect);
-        add(out.estimated.transmit, transmit + out.delta_transmit);
-        add(out.estimated.both, reflect + transmit + out.delta_reflect + out.delta_transmit);
-    }
-}
-
 }  // namespace
 
 Effort Effort::times(std::size_t factor) const
@@ -143,18 +95,10 @@ Effort Effort::times(std::size_t factor) const
     e.samples *= factor;
     e.even_samples *= factor;
     e.estimates *= factor;
+    e.evaluations *= 4;
+    e.tolerance /= static_cast<double>(factor);
     return e;
 }
-
-Color Survey::reflected() const
-{
-    return traits.stochastic_eval ? mean_of(estimated.reflect) : reflect + delta_reflect;
-}
-Color Survey::transmitted() const
-{
-    return traits.stochastic_eval ? mean_of(estimated.transmit) : transmit + delta_transmit;
-}
-Color Survey::total() const { return reflected() + transmitted(); }
 
 Survey survey(TestedClosure& closure, const Direction& wo, const Effort& effort, std::uint64_t seed)
 {
@@ -179,9 +123,51 @@ Survey survey(TestedClosure& closure, const Direction& wo, const Effort& effort,
         ((b.corner.chart < 4) == (wo.z >= 0) ? out.reflect : out.transmit) += b.integral.value;
     }
     take_even_samples(closure, effort.even_samples, random, out);
-    if (!exact) estimate_values(closure, cells, effort.estimates, random, out);
     out.cells = made;
     return out;
+}
+
+// A bin by its share of the pdf, a place in it evenly, the estimate by numbers of its own.
+MeanColor estimated_integrals(const TestedClosure& closure, const Survey& survey, std::size_t n,
+                              std::uint64_t seed)
+{
+    const std::vector<Bin>& bins = survey.cells->bins();
+    Random random(seed);
+    MeanColor mean;
+    const double pi = std::acos(-1.0), even_share = 0.2;
+    std::vector<double> up_to(bins.size());
+    double sum = 0, pdf = 0, area = 0;
+    for (const Bin& b : bins) pdf += b.integral.pdf, area += b.size * b.size;
+    const auto chance = [&](const Bin& b) {
+        const double flat = b.size * b.size / area;
+        return pdf > 0 ? even_share * flat + (1 - even_share) * b.integral.pdf / pdf : flat;
+    };
+    for (std::size_t b = 0; b < bins.size(); ++b) up_to[b] = sum += chance(bins[b]);
+
+    const std::size_t each = std::max<std::size_t>(1, n / groups);
+    for (std::size_t g = 0; g < groups; ++g)
+    {
+        EvenPoints even(random.cube());
+        Color reflect(0.0), transmit(0.0);
+        for (std::size_t i = 0; i < each; ++i)
+        {
+            const Direction v = even.next();
+            const auto place = std::upper_bound(up_to.begin(), up_to.end(), v.z * sum);
+            const Bin& b =
+                bins[std::min(bins.size() - 1, static_cast<std::size_t>(place - up_to.begin()))];
+            const ChartPoint p{b.corner.chart, b.corner.x + b.size * v.x,
+                               b.corner.y + b.size * v.y};
+            const Direction wi = survey.cells->charts().direction_of(p);
+            const double weight = pi * p.x * b.size * b.size * sum / chance(b);
+            const Color value =
+                closure.eval(wi, random.cube()) * (weight / static_cast<double>(each));
+            (same_side(wi, survey.wo) ? reflect : transmit) += value;
+        }
+        add(mean.reflect, reflect + survey.delta_reflect);
+        add(mean.transmit, transmit + survey.delta_transmit);
+        add(mean.both, reflect + transmit + survey.delta_reflect + survey.delta_transmit);
+    }
+    return mean;
 }
 
 std::vector<double> histogram(const TestedClosure& closure, const SphereCells& cells, std::size_t n,

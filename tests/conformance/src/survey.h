@@ -22,9 +22,9 @@ struct Effort
 {
     std::size_t samples = 1 << 18;       ///< independent ones, for histograms
     std::size_t even_samples = 1 << 16;  ///< evenly spread ones, for means
-    std::size_t evaluations = 1 << 19;   ///< at most, of an integral
-    std::size_t estimates = 1 << 17;     ///< of a value that is one
-    double tolerance = 1e-4;             ///< of an integral
+    std::size_t evaluations = 1 << 18;   ///< at most, of an integral
+    std::size_t estimates = 1 << 15;     ///< of a value that is one
+    double tolerance = 3e-5;             ///< of an integral
 
     Effort times(std::size_t factor) const;
 };
@@ -47,13 +47,11 @@ struct Survey
     Direction wo;
     Traits traits;
 
-    // The integrals: of pdf over the sphere, of eval over either side. `error` is the estimated
-    // error of the worst of them. Where eval is an estimate, `value` is its mean over the sphere
-    // instead, with its own errors.
+    // The integrals: of pdf over the sphere, of eval over either side where it is no estimate.
+    // `error` is the estimated error of the worst of them.
     double pdf = 0, error = 0;
     bool resolved = false;  ///< the error is below the tolerance
     Color reflect{0.0}, transmit{0.0};
-    MeanColor estimated;
 
     // The samples.
     RunningMean nothing, delta;  ///< shares; means over groups of evenly spread samples
@@ -66,15 +64,19 @@ struct Survey
     /// Bins that follow the lobe, with the integrals over them.
     std::shared_ptr<const SphereCells> cells;
 
-    /// Integral of eval, delta lobes included.
-    Color total() const;
-    Color reflected() const;
-    Color transmitted() const;
+    /// Integrals of eval, and what has no density.
+    Color reflected() const { return reflect + delta_reflect; }
+    Color transmitted() const { return transmit + delta_transmit; }
+    Color total() const { return reflected() + transmitted(); }
 };
 
 /// `closure` is prepared for wo by this.
 Survey survey(TestedClosure& closure, const Direction& wo, const Effort& effort,
               std::uint64_t seed);
+
+/// The integrals of an eval that is an estimate, by n of them; delta lobes included.
+MeanColor estimated_integrals(const TestedClosure& prepared, const Survey& survey, std::size_t n,
+                              std::uint64_t seed);
 
 /// How many of n independent samples with a density fall into each bin. The closure is prepared.
 std::vector<double> histogram(const TestedClosure& closure, const SphereCells& cells, std::size_t n,

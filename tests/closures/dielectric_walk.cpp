@@ -78,13 +78,13 @@ TEST(DielectricWalk, first_bounce_is_single_scattering)
                     return is_tilted_towards(wo, m * (m.z * side < 0 ? -1.0 : 1.0));
                 };
                 const auto E = integrate_dielectric(
-                    wo, eta, distribution.alpha_x(), distribution.alpha_y(), 1e-5,
+                    wo, eta, distribution.alpha_x(), distribution.alpha_y(), 1e-6,
                     [&](const Vec3<double>& wi) {
                         const double f = once.eval(wi).x;
                         return towards(wi) ? Vec2<double>(f, 0) : Vec2<double>(0, f);
                     });
 
-                constexpr int n = 40000;
+                constexpr int n = 160000;
                 const auto prepared = glass(distribution, eta).prepare(wo);
                 std::vector<double> counts(4);
                 for (int i = 0; i < n; ++i)

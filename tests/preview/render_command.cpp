@@ -4,23 +4,17 @@
 // The command as a user meets it: what it writes, what it refuses and how, and what an interrupt
 // leaves.
 
-#include "../support/temporary_folder.h"
-#include "commands.h"
-#include "errors.h"
+#include "render_fixture.h"
 
 #include <regain/shaders/color_config.h>
 
-#include <OpenImageIO/imageio.h>
-#include <gtest/gtest.h>
 #include <unistd.h>
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string>
 #include <thread>
 #include <vector>
@@ -29,48 +23,8 @@ namespace regain::tools { namespace {
 
 namespace fs = std::filesystem;
 
-class RenderCommand : public testing::Test
-{
-protected:
-    /// Exit code of `regain render` with these arguments; out and err hold what it said.
-    int run(std::vector<std::string> arguments)
-    {
-        CLI::App app;
-        int exit_code = kDone;
-        add_render(app, exit_code);
-        arguments.insert(arguments.begin(), "render");
-        std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());
-        testing::internal::CaptureStdout();
-        testing::internal::CaptureStderr();
-        try
-        {
-            app.parse(reversed);
-        }
-        catch (const CLI::ParseError& e)
-        {
-            exit_code = app.exit(e) == 0 ? kDone : kBadInput;
-        }
-        out = testing::internal::GetCapturedStdout();
-        err = testing::internal::GetCapturedStderr();
-        return exit_code;
-    }
-    std::string file(const std::string& name) const { return (folder / name).string(); }
-
-    static std::string attribute(const std::string& exr, const std::string& name)
-    {
-        const auto input = OIIO::ImageInput::open(exr);
-        return input ? std::string(input->spec().get_string_attribute(name)) : "no such file";
-    }
-    static std::vector<char> bytes(const std::string& path)
-    {
-        std::ifstream in(path, std::ios::binary);
-        return {std::istreambuf_iterator<char>(in), {}};
-    }
-
-    const test::TemporaryFolder temporary;
-    const fs::path folder = temporary.path();
-    std::string out, err;
-};
+class RenderCommand : public RenderTest
+{};
 
 TEST_F(RenderCommand, WritesPicturesAndSaysHow)
 {

@@ -72,8 +72,11 @@ DielectricIntegral along_ray(const Vec3<double>& wo, double eta_o, double alpha_
     static const luts::QuadratureRule rule = luts::gauss_legendre(14);
     const double dp = alpha_x * std::cos(phi), dq = alpha_y * std::sin(phi);
     const double kappa2 = 1 - eta_o * eta_o;
-    // Slopes are rho = r / (1 - r) times the widths.
-    const auto normal = [&](double r) { return Vec3<double>(dp * r, dq * r, 1 - r).normalized(); };
+    // Slopes are rho = r / rest times the widths, rest = 1 - r.
+    const auto facet = [&](double r, double rest) {
+        return Vec3<double>(dp * r, dq * r, rest).normalized();
+    };
+    const auto normal = [&](double r) { return facet(r, 1 - r); };
 
     // Bits that change where the range is to be cut.
     const auto state = [&](double r) {
@@ -109,20 +112,34 @@ DielectricIntegral along_ray(const Vec3<double>& wo, double eta_o, double alpha_
     std::sort(edges.begin(), edges.end());
 
     DielectricIntegral sum;
+    const auto add = [&](double r, double rest, double w) {
+        const Vec3<double> m = facet(r, rest);
+        if (wo.dot(m) > 0)
+            sum.add(at(m), alpha_x * alpha_y * m.z * m.z * m.z * r / (rest * rest * rest) * w);
+    };
     for (std::size_t e = 0; e + 1 < edges.size(); ++e)
     {
         const double a = edges[e], width = edges[e + 1] - a;
         if (width < 1e-13 || state(a + 0.5 * width) == 0) continue;
+        const bool last = e + 2 == edges.size();
+        const double end = last ? 0.5 * width : 0, body = width - end;
         for (std::size_t i = 0; i < rule.x.size(); ++i)
         {
             // Nodes gather at both ends, where square roots begin.
-            const double y = rule.x[i], r = a + width * y * y * (3 - 2 * y);
-            const double w = rule.weight[i] * 6 * y * (1 - y) * width;
-            const Vec3<double> m = normal(r);
-            const double dm =
-                alpha_x * alpha_y * m.z * m.z * m.z * r / ((1 - r) * (1 - r) * (1 - r)) * w;
-            if (wo.dot(m) > 0) sum.add(at(m), dm);
+            const double y = rule.x[i], r = a + body * y * y * (3 - 2 * y);
+            add(r, 1 - r, rule.weight[i] * 6 * y * (1 - y) * body);
         }
+        if (!last) continue;
+        // What steep facets refract goes like rest^(2g - 4) for D like rho^-2g, g > 3/2: nearly a
+        // pole for the longest tails, of which no power of ten may be left out.
+        constexpr double powers[] = {0, 3, 9, 18, 36};
+        for (int piece = 0; piece < 4; ++piece)
+            for (std::size_t i = 0; i < rule.x.size(); ++i)
+            {
+                const double length = powers[piece + 1] - powers[piece];
+                const double rest = end * std::exp(-(powers[piece] + length * rule.x[i]));
+                add(1 - rest, rest, rule.weight[i] * length * rest);
+            }
     }
     return sum;
 }

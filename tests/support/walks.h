@@ -13,6 +13,9 @@
 #include <regain/closures/std.h>
 #include <regain/closures/walk.h>
 
+#include <string>
+#include <vector>
+
 namespace regain::tests {
 
 /// f(distribution, name) of all four, isotropic and anisotropic.
@@ -28,6 +31,44 @@ void for_each_distribution(const F& f)
     f(GTR<Real>(a, b, gamma), "GTR, anisotropic");
     f(STD<Real>(a, tail), "STD");
     f(STD<Real>(b, a, gamma), "STD, anisotropic");
+}
+
+/// f(name, distributions) of each kind: narrow and wide, anisotropic one way and the other.
+template <class Real, class F>
+void for_each_kind(const F& f)
+{
+    f("GGX",
+      std::vector<GGX<Real>>{GGX<Real>(Real(0.15)), GGX<Real>(Real(0.4)), GGX<Real>(Real(0.7)),
+                             GGX<Real>(Real(1)), GGX<Real>(Real(0.25), Real(0.7)),
+                             GGX<Real>(Real(0.9), Real(0.3))});
+    f("Beckmann", std::vector<Beckmann<Real>>{Beckmann<Real>(Real(0.15)), Beckmann<Real>(Real(0.4)),
+                                              Beckmann<Real>(Real(0.7)), Beckmann<Real>(Real(1)),
+                                              Beckmann<Real>(Real(0.25), Real(0.7)),
+                                              Beckmann<Real>(Real(0.9), Real(0.3))});
+    f("GTR", std::vector<GTR<Real>>{GTR<Real>(Real(0.15), Real(1)), GTR<Real>(Real(0.4), Real(1.6)),
+                                    GTR<Real>(Real(0.7), Real(3)), GTR<Real>(Real(1), Real(0.5)),
+                                    GTR<Real>(Real(0.25), Real(0.7), Real(1.3)),
+                                    GTR<Real>(Real(0.9), Real(0.3), Real(2))});
+    f("STD",
+      std::vector<STD<Real>>{STD<Real>(Real(0.15), Real(1.6)), STD<Real>(Real(0.4), Real(2.5)),
+                             STD<Real>(Real(0.7), Real(1.8)), STD<Real>(Real(1), Real(8)),
+                             STD<Real>(Real(0.25), Real(0.7), Real(2)),
+                             STD<Real>(Real(0.9), Real(0.3), Real(40))});
+}
+
+/// For messages.
+template <class Distribution>
+std::string place(const Distribution& d, double mu)
+{
+    return "alpha " + std::to_string(d.alpha_x()) + ", " + std::to_string(d.alpha_y()) + ", mu " +
+           std::to_string(mu);
+}
+
+/// Whether the facet m is tilted towards wo. The quadratures cut their ranges where it is not
+/// tilted either way, so that either half has an exact integral, too.
+inline bool is_tilted_towards(const Vec3<double>& wo, const Vec3<double>& m)
+{
+    return m.x * wo.x + m.y * wo.y > 0;
 }
 
 template <class Distribution>

@@ -3,12 +3,10 @@
 
 // Figure 3 of Turquin 2019: Burley's 2015 sheen from 0 to 1, over a Lambertian base.
 
-#include "../preview/bind_distribution.h"
+#include "../preview/cloth.h"
 #include "measures.h"
 #include "scenes.h"
 
-#include <regain/closures/diffuse.h>
-#include <regain/closures/sheen.h>
 #include <regain/luts/albedo_integral.h>
 
 #include <fmt/format.h>
@@ -16,20 +14,15 @@
 namespace regain::tools::figures {
 namespace {
 
-constexpr double base = 0.05;
+using preview::Cloth;
 
-/// Cloth: a dark base, on which it shows, and sheen.
-struct Cloth
+/// On a dark base sheen shows.
+Cloth cloth(double weight)
 {
-    double weight;
-
-    template <class Real>
-    auto closure(Real strength) const
-    {
-        return burley_sheen(Diffuse<Real>(Color3<Real>(Real(base))), Real(weight) * strength);
-    }
-    const char* lobe_name() const { return "cloth"; }
-};
+    shaders::SheenSurface sheen;
+    sheen.weight = weight;
+    return {sheen};
+}
 
 }  // namespace
 
@@ -39,9 +32,7 @@ Figure make_figure3(const Request& request)
     Figure figure = titled("3", "sheen 0, 0.25, 0.5, 0.75, 1 over a dark base, as in Burley 2015");
     Cell cell;
     cell.layout.objects = objects;
-    cell.object = [](int i) {
-        return std::make_unique<preview::BoundAs<Cloth>>(Cloth{i / double(objects - 1)});
-    };
+    cell.object = [](int i) { return preview::bind(cloth(i / double(objects - 1))); };
     write_pictures(request, figure, "figure3",
                    render_cell(request, "figure 3", cell, 1200, 300).picture);
 
@@ -54,12 +45,12 @@ Figure make_figure3(const Request& request)
         for (const double weight : {0.0, 0.5, 1.0})
         {
             const double E =
-                sampled_energy(Cloth{weight}.closure(1.0).prepare(at_angle<double>(mu)), n,
+                sampled_energy(cloth(weight).closure(1.0).prepare(at_angle<double>(mu)), n,
                                request.seed)
                     .reflect.x;
             row.push_back(fmt::format("{:.4f}", E));
-            if (weight == 1.0 && mu == 0.02) added_grazing = E - base;
-            if (weight == 1.0 && mu == 1.0) added_normal = E - base;
+            if (weight == 1.0 && mu == 0.02) added_grazing = E - Cloth::dark;
+            if (weight == 1.0 && mu == 1.0) added_normal = E - Cloth::dark;
         }
         table.rows.push_back(row);
     }

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+#include "render_options.h"
+
+#include <CLI/CLI.hpp>
+
+namespace regain::tools {
+
+namespace {
+
+void declare_materials(RenderOptions& o, CLI::App& command)
+{
+    command.add_option("--material", o.material, "metal, glass, or sheen (a cloth)")
+        ->capture_default_str();
+    command.add_option("--metal", o.metal, "gold, silver, copper, aluminium or brass [gold]");
+    command.add_option("--ior", o.ior,
+                       "of glass: index inside over index outside, 0.1 to 10; of thin-walled "
+                       "glass, of the sheet over what is around it [1.5]");
+    command.add_flag("--thin-walled", o.thin_walled,
+                     "glass as a sheet with two sides, as of a bubble or a window");
+    command.add_option("--scatter-mode", o.scatter_mode,
+                       "what glass does: R reflects, T transmits, RT both [RT]");
+    command.add_option("--transmission-shadowing", o.transmission_shadowing,
+                       "of what glass transmits: correlated or beta [correlated; beta for the "
+                       "method walk]");
+    command
+        .add_option("--weight", o.weights, "of sheen, one object each, 0 to 1 [0,0.25,0.5,0.75,1]")
+        ->delimiter(',');
+    command.add_option("--base", o.base,
+                       "albedo of the dull cloth under the sheen, 0 (sheen alone) to 1 [0.05]");
+    command
+        .add_option("--alpha", o.alphas,
+                    "microfacet widths, one object each, 0 to 1 [0.05,0.2,0.4,0.6,0.8,1]")
+        ->delimiter(',');
+    command.add_option("--alpha-ratio", o.alpha_ratio,
+                       "width around the object over width up and down it, 0.01 to 100; alpha is "
+                       "the greater of the two [1]");
+    command.add_option("--distribution", o.distribution,
+                       "of facets: ggx, beckmann, gtr or std [ggx]");
+    command.add_option("--gamma", o.gamma, "tail of gtr (up to 10) and std (1.51 to 100) [2]");
+}
+
+}  // namespace
+
+void declare(RenderOptions& o, CLI::App& command)
+{
+    command.footer(
+        R"(Without options: gold of rising roughness, without compensation (top) and with
+the method turquin (bottom), as in Figure 1 of Turquin 2019. Sheen has no
+roughness: one row of rising weight, as in Figure 3. Ctrl-C writes what there is,
+marked with regain:partial = 1.
+
+Examples:
+  regain render
+  regain render --metal copper --alpha 0.1,0.5,1 --size 900x640 -o copper.exr
+  regain render --method series --environment studio.hdr --spp 256
+  regain render --host clarisse --view raw --json
+  regain render --alpha 0.2,0.4,0.8 --alpha-ratio 4
+  regain render --material glass --ior 1.5 --object sphere --alpha 0,0.2,0.5
+  regain render --material glass --object nested --environment white --method turquin
+  regain render --material glass --thin-walled --object sphere
+  regain render --material glass --scatter-mode T --transmission-shadowing beta
+  regain render --material sheen --weight 0,0.5,1 --base 0.1
+  regain render --distribution gtr --gamma 1.5 --method walk)");
+    command.add_option("-o,--output", o.output, "EXR to write; the PNG goes beside it")
+        ->capture_default_str();
+    command.add_option("--method", o.method,
+                       "one row with this compensation method, instead of none above turquin");
+    declare_materials(o, command);
+    command.add_option("--object", o.object, "widget, sphere, or nested (a sphere in a sphere)")
+        ->capture_default_str();
+    command.add_option("--host", o.host, "renderman (batched) or clarisse (one point)")
+        ->capture_default_str();
+    command.add_option("--environment", o.environment,
+                       "latitude-longitude EXR or HDR that lights the scene, or white: 1 from "
+                       "everywhere, and no floor [built-in studio]");
+    command.add_option("--spp", o.samples, "samples per pixel, 1 to 65536")->capture_default_str();
+    command.add_option("--seed", o.seed, "of the random numbers")->capture_default_str();
+    command.add_option("--bounces", o.bounces, "at most, per path [16; 64 for glass]");
+    command.add_option("--size", o.size, "WIDTHxHEIGHT of the whole picture, in pixels");
+    command.add_option("--threads", o.threads, "0: one per core; never changes the picture")
+        ->capture_default_str();
+    command.add_option("--display", o.display, "OCIO display of the PNG [the config's default]");
+    command.add_option("--view", o.view, "OCIO view of the PNG [the display's default]");
+    command.add_flag("--quiet", o.quiet, "no progress, no summary");
+    command.add_flag("--json", o.json, "summary as one line of JSON on standard output");
+}
+
+}  // namespace regain::tools

@@ -35,10 +35,10 @@ public:
             const unsigned high = byte();
             return (high * 256 + byte()) / 65536.0;
         }
-        std::uint8_t raw[sizeof(double)];
-        for (std::uint8_t& b : raw) b = byte();
+        std::uint64_t raw = 0;
+        for (int i = 0; i < 8; ++i) raw = raw << 8 | byte();
         double x;
-        std::memcpy(&x, raw, sizeof x);
+        std::memcpy(&x, &raw, sizeof x);
         return x;
     }
     Imath::V3d triple()

@@ -132,19 +132,30 @@ void add_commit(List& list)
     const auto at = [](double ax, double ay, double eta = 1.5) {
         return with_gamma(wide(ax, ay, eta), middle_gamma);
     };
-    for (double alpha : {1e-3, 0.04, 0.25, 0.81, 1.0}) list.add(at(alpha, alpha), {0.7, 0.3, 0.02});
+    const auto every = [&](double alpha, const std::vector<double>& cosines) {
+        list.add(at(alpha, alpha), cosines);
+    };
+    every(1e-3, {0.3, 0.02});
+    every(0.04, {0.7, 0.02});
+    every(0.25, {0.7, 0.3});
+    every(0.81, {0.3});
+    every(1, {0.7, 0.02});
     // Where the next is told from the last by nothing that the subject reads, it is not added.
-    for (double eta : {1 / 1.5, 1.0}) list.add(at(0.25, 0.25, eta), {0.7, 0.3}, {0}, false);
-    list.add(at(1, 1, 1 / 1.5), {0.7, 0.02}, {0}, false);
+    list.add(at(0.25, 0.25, 1), {0.7}, {0}, false);
+    list.add(at(0.25, 0.25, 1 / 1.5), {0.7, 0.3}, {0}, false);
+    list.add(at(1, 1, 1 / 1.5), {0.7}, {0}, false);
     list.add(with_gamma(wide(0.25), 3), {0.3});
     for (double alpha : {0.25, 1.0})
     {
-        list.add(schlick(at(alpha, alpha)), {0.7, 0.02});
+        list.add(schlick(at(alpha, alpha)), {0.7});
         list.add(gold(at(alpha, alpha)), {0.3});
     }
-    for (double alpha : {0.04, 0.25, 1.0}) list.add(in_float(at(alpha, alpha)), {0.7, 0.02});
-    list.add(at(0.25, 0.0625), {0.7, 0.3}, {0, 45, 90});
-    list.add(at(0.25, 1), {0.02}, {45});
+    list.add(schlick(at(1, 1)), {0.02});
+    for (double alpha : {0.04, 1.0}) list.add(in_float(at(alpha, alpha)), {0.7});
+    list.add(in_float(at(0.25, 0.25)), {0.02});
+    list.add(at(0.25, 0.0625), {0.7}, {0, 45, 90});
+    list.add(at(0.25, 0.0625), {0.3}, {45}, false);
+    list.add(at(0.25, 1), {0.02}, {45}, false);
 }
 
 void add_thorough(List& list)

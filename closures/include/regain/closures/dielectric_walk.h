@@ -355,9 +355,12 @@ public:
                                      carried * lost_R * _R_to_T;
                 value = detail::select(beyond, through, value);
             }
-            // Some of it everywhere: no facet that wo sees need lead to where a walk can.
-            return Real(0.98f) * value / _visible.projected_area() +
-                   up.z * detail::constant<Real>(0.02 * 0.159154943091895336);
+            // Some of it everywhere: no facet that wo sees need lead to where a walk can. Where
+            // light passes undeflected, what is left may be next to nothing.
+            const Real even =
+                detail::select(_narrow, detail::constant<Real>(1e-6), detail::constant<Real>(0.02));
+            return (Real(1) - even) * value / _visible.projected_area() +
+                   up.z * even * detail::constant<Real>(0.159154943091895336);
         }
         Real leaves(const Real& z, const Real& area_i) const
         {

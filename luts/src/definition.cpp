@@ -129,32 +129,40 @@ bool Family::operator==(const Family& other) const
            inside == other.inside;
 }
 
+double Family::alpha_at(double coordinate) const
+{
+    return has_tail_axis() ? alpha_of_tailed(coordinate) : alpha_of_root(coordinate);
+}
+
+double Family::tail_at(double coordinate) const
+{
+    if (!has_tail_axis()) return gamma;
+    return distribution == "gtr" ? gtr_gamma(coordinate) : std_gamma(coordinate);
+}
+
+SlopeLaw Family::law(double y, double z) const
+{
+    return SlopeLaw::named(distribution, alpha_at(y), tail_at(z));
+}
+
 std::vector<Family::Values> Family::row(const std::vector<double>& xs, double y, double z,
                                         int nodes) const
 {
+    if (kind != Kind::average) return row(law(y, z), xs, y, z, nodes);
     std::vector<Values> values;
-    const bool tail_axis = has_tail_axis();
-    const auto tail_at = [&](double coordinate) {
-        if (!tail_axis) return gamma;
-        return distribution == "gtr" ? gtr_gamma(coordinate) : std_gamma(coordinate);
-    };
-    const auto alpha_at = [&](double coordinate) {
-        return tail_axis ? alpha_of_tailed(coordinate) : alpha_of_root(coordinate);
-    };
-
-    if (kind == Kind::average)
+    for (double x : xs)
     {
-        for (double x : xs)
-        {
-            const SlopeLaw law = SlopeLaw::named(distribution, alpha_at(x), tail_at(y));
-            values.push_back({average_albedo(law, {nodes}), 0, 0, 0});
-        }
-        return values;
+        const SlopeLaw law = SlopeLaw::named(distribution, alpha_at(x), tail_at(y));
+        values.push_back({average_albedo(law, {nodes}), 0, 0, 0});
     }
+    return values;
+}
 
-    const double alpha = alpha_at(y);
-    const SlopeLaw law = SlopeLaw::named(distribution, alpha, tail_at(z));
-    const double eta = eta_of_coordinate(z, inside);
+std::vector<Family::Values> Family::row(const SlopeLaw& law, const std::vector<double>& xs,
+                                        double y, double z, int nodes) const
+{
+    std::vector<Values> values;
+    const double alpha = alpha_at(y), eta = eta_of_coordinate(z, inside);
     for (double x : xs)
     {
         if (kind == Kind::dielectric)
@@ -168,7 +176,7 @@ std::vector<Family::Values> Family::row(const std::vector<double>& xs, double y,
             continue;
         }
         const auto mu_at = [&](double coordinate) {
-            return tail_axis                    ? mu_of_tail_cosine(coordinate, alpha)
+            return has_tail_axis()              ? mu_of_tail_cosine(coordinate, alpha)
                    : distribution == "beckmann" ? mu_of_plain_cosine(coordinate, alpha)
                                                 : mu_of_stretched_cosine(coordinate, alpha);
         };

@@ -31,11 +31,19 @@ struct Family
         return gamma == 0 && (distribution == "gtr" || distribution == "std");
     }
     double alpha_of_tailed(double coordinate) const;
+    double alpha_at(double coordinate) const;
+    double tail_at(double coordinate) const;
     bool operator==(const Family& other) const;
 
     /// The values at (x, y, z) for every x of a row. Averages have their alpha along x, their tail
     /// along y. `nodes` of the quadrature.
     std::vector<Values> row(const std::vector<double>& x, double y, double z, int nodes) const;
+
+    /// The law of the row (y, z), but of averages. Of dielectrics it is the same for all z: it may
+    /// take as long to make as a point to integrate, and so can be given to all rows.
+    SlopeLaw law(double y, double z) const;
+    std::vector<Values> row(const SlopeLaw& law, const std::vector<double>& x, double y, double z,
+                            int nodes) const;
 
     /// Is (x, y, z) in the range that the error is promised for? Of dielectrics `share` of the
     /// least cosine is the bound.

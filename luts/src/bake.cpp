@@ -314,6 +314,8 @@ std::vector<std::string> dielectric_table_names(const std::string& distribution,
 
 void require_bakeable(const std::string& name) { Definition::of(name); }
 
+TableInfo bakeable_info(const std::string& name) { return Definition::of(name).info; }
+
 double exact_value(const std::string& name, const TablePoint& at, int nodes)
 {
     const Definition d = Definition::of(name);

@@ -32,8 +32,8 @@ constexpr const char* help_footer = R"help(
 TABLE is DISTRIBUTION_QUANTITY: ggx, beckmann, gtr or std; E_ss, E_avg, falloff or dip. Those of
 dielectrics are DISTRIBUTION_QUANTITY_SHADOWING_SIDE: E_S or R_share; correlated or beta; outside
 or inside; there gtr and std take one gamma, gtr_1.3_E_S_beta_inside. Without names the four of ggx
-are baked that are compiled in. Those take ten seconds; each other family, all on two cores, a
-minute or two: the mirror tables of gtr or std, one side of the dielectrics of a distribution.
+are baked that are compiled in. Those take ten seconds; on two cores the mirror tables of gtr or std
+take a minute or two, and so do the eight of dielectrics of a distribution, or of one gamma of it.
 
 Tables are baked by deterministic quadrature on all cores, one after the other, and each is written,
 whole, as soon as it is done: after Ctrl-C those that are listed are there, all others are as they

@@ -17,6 +17,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -31,13 +32,13 @@ constexpr const char* help_footer = R"help(
 TABLE is DISTRIBUTION_QUANTITY: ggx, beckmann, gtr or std; E_ss, E_avg, falloff or dip. Those of
 dielectrics are DISTRIBUTION_QUANTITY_SHADOWING_SIDE: E_S or R_share; correlated or beta; outside
 or inside; there gtr and std take one gamma, gtr_1.3_E_S_beta_inside. Without names the four of ggx
-are baked that are compiled in. Those take ten seconds; each other family, all on two cores, a
-minute or two: the mirror tables of gtr or std, one side of the dielectrics of a distribution.
+are baked that are compiled in. Those take ten seconds; on two cores the mirror tables of gtr or std
+take a minute or two, and so do the eight of dielectrics of a distribution, or of one gamma of it.
 
-Tables are baked by deterministic quadrature on all cores and written when all of them are done:
-after Ctrl-C nothing has changed. The error that is reported is the largest of interpolation between
-the nodes, in the range it is promised for: alpha from 5e-4 and mu from 7e-4 on of gtr and std, mu
-from 0.018 on of dielectrics.
+Tables are baked by deterministic quadrature on all cores, one after the other, and each is written,
+whole, as soon as it is done: after Ctrl-C those that are listed are there, all others are as they
+were. The error that is reported is the largest of interpolation between the nodes, in the range it
+is promised for: alpha from 5e-4 and mu from 7e-4 on of gtr and std, mu from 0.018 on of dielectrics.
 
 --verify bakes again and compares: the tables compiled into this program must hold the very same
 16-bit numbers, EXR files values within 1e-6, or one step where they are rounded. Exit code 1 where
@@ -124,6 +125,35 @@ void write_embedded(const fs::path& file, const luts::Table& table)
     });
 }
 
+Json::array_t write(const luts::Table& table, const Arguments& a)
+{
+    Json::array_t files;
+    if (!a.output.empty())
+    {
+        const fs::path file = fs::path(a.output) / (table.name() + ".exr");
+        luts::write_table(file, table);
+        files.push_back(file.string());
+    }
+    if (!a.embed.empty())
+    {
+        const fs::path file = fs::path(a.embed) / (table.name() + ".inc");
+        write_embedded(file, table);
+        files.push_back(file.string());
+    }
+    return files;
+}
+
+void print(const luts::Table& table)
+{
+    const luts::TableInfo& info = table.info();
+    fmt::print("{:<34} {:>12}  {:.2e} {:>9}  {}, {} nodes\n", table.name(),
+               table.depth() > 1
+                   ? fmt::format("{} x {} x {}", table.width(), table.height(), table.depth())
+                   : fmt::format("{} x {}", table.width(), table.height()),
+               info.error, info.error_kind, info.method, info.nodes);
+    std::fflush(stdout);  // where it is no terminal, a long bake is followed, too
+}
+
 int run_bake(const Arguments& a, const InterruptGuard& guard)
 {
     if (a.output.empty() && a.embed.empty())
@@ -134,29 +164,26 @@ int run_bake(const Arguments& a, const InterruptGuard& guard)
     if (!a.output.empty()) make_folder(a.output);
     if (!a.embed.empty()) make_folder(a.embed);
 
-    std::vector<luts::Table> tables;
-    for (const std::string& name : asked.empty() ? luts::compiled_in_tables() : asked)
-        tables.push_back(bake_showing(name, guard));
-
+    const Names names = asked.empty() ? luts::compiled_in_tables() : asked;
     Json report = Json::array();
+    int code = kDone;
     if (!a.json)
         fmt::print("{:<34} {:>12}  {:>18}  {}\n", "table", "nodes", "largest error", "method");
-    for (const luts::Table& table : tables)
+    for (const std::string& name : names)
     {
+        luts::Table table;
+        try
+        {
+            table = bake_showing(name, guard);
+        }
+        catch (const luts::BakeStopped&)
+        {
+            fmt::print(stderr, "regain: stopped, {} of {} tables were written\n", report.size(),
+                       names.size());
+            code = kInterrupted;
+            break;
+        }
         const luts::TableInfo& info = table.info();
-        Json files = Json::array();
-        if (!a.output.empty())
-        {
-            const fs::path file = fs::path(a.output) / (table.name() + ".exr");
-            luts::write_table(file, table);
-            files.push_back(file.string());
-        }
-        if (!a.embed.empty())
-        {
-            const fs::path file = fs::path(a.embed) / (table.name() + ".inc");
-            write_embedded(file, table);
-            files.push_back(file.string());
-        }
         report.push_back({{"table", table.name()},
                           {"width", table.width()},
                           {"height", table.height()},
@@ -165,16 +192,11 @@ int run_bake(const Arguments& a, const InterruptGuard& guard)
                           {"quadrature_nodes", info.nodes},
                           {"error", info.error},
                           {"error_kind", info.error_kind},
-                          {"files", files}});
-        if (!a.json)
-            fmt::print("{:<34} {:>12}  {:.2e} {:>9}  {}, {} nodes\n", table.name(),
-                       table.depth() > 1 ? fmt::format("{} x {} x {}", table.width(),
-                                                       table.height(), table.depth())
-                                         : fmt::format("{} x {}", table.width(), table.height()),
-                       info.error, info.error_kind, info.method, info.nodes);
+                          {"files", write(table, a)}});
+        if (!a.json) print(table);
     }
     if (a.json) fmt::print("{}\n", report.dump());
-    return kDone;
+    return code;
 }
 
 int run_verify(const Arguments& a, const InterruptGuard& guard)
@@ -193,7 +215,7 @@ int run(const Arguments& a)
     }
     catch (const luts::BakeStopped&)
     {
-        fmt::print(stderr, "regain: stopped, nothing was written\n");
+        fmt::print(stderr, "regain: stopped, not all tables were verified\n");
         return kInterrupted;
     }
 }

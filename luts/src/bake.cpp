@@ -13,6 +13,7 @@
 #include <cmath>
 #include <memory>
 #include <mutex>
+#include <optional>
 
 REGAIN_NAMESPACE_BEGIN
 namespace luts {
@@ -54,6 +55,16 @@ Lattice integrate(const Definition& d, const BakeProgress& progress)
     l.depth = points(d.depth, l.between);
     l.values.resize(index(l.width * l.height * l.depth));
 
+    // Laws of dielectrics serve all indices.
+    std::vector<std::optional<SlopeLaw>> laws;
+    if (d.family.kind == Family::Kind::dielectric)
+    {
+        laws.resize(index(l.height));
+        parallel_for(laws.size(), {}, [&](std::size_t j) {
+            laws[j] = d.family.law(coordinate(static_cast<int>(j), l.height), 0);
+        });
+    }
+
     parallel_for(index(l.height * l.depth), progress, [&](std::size_t n) {
         const int row = static_cast<int>(n), j = row % l.height, k = row / l.height;
         // Nodes and the points between them are integrated to their own accuracy.
@@ -68,9 +79,11 @@ Lattice integrate(const Definition& d, const BakeProgress& progress)
                     places.push_back(i);
                 }
             if (x.empty()) continue;
+            const double y = coordinate(j, l.height), z = coordinate(k, l.depth);
+            const int accuracy = nodes ? d.node_accuracy : d.check_accuracy;
             const std::vector<Family::Values> found =
-                d.family.row(x, coordinate(j, l.height), coordinate(k, l.depth),
-                             nodes ? d.node_accuracy : d.check_accuracy);
+                laws.empty() ? d.family.row(x, y, z, accuracy)
+                             : d.family.row(*laws[index(j)], x, y, z, accuracy);
             for (std::size_t i = 0; i < x.size(); ++i) l.values[l.at(places[i], j, k)] = found[i];
         }
     });
@@ -300,6 +313,8 @@ std::vector<std::string> dielectric_table_names(const std::string& distribution,
 }
 
 void require_bakeable(const std::string& name) { Definition::of(name); }
+
+TableInfo bakeable_info(const std::string& name) { return Definition::of(name).info; }
 
 double exact_value(const std::string& name, const TablePoint& at, int nodes)
 {

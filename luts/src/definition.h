@@ -25,17 +25,25 @@ struct Family
     std::string distribution;
     double gamma = 0;  // 0: an axis, or none
     bool inside = false;
+    bool near_index = false;  // z of side 1 in the beta form
 
-    bool has_tail_axis() const
-    {
-        return gamma == 0 && (distribution == "gtr" || distribution == "std");
-    }
+    bool has_tail() const { return distribution == "gtr" || distribution == "std"; }
+    bool has_tail_axis() const { return gamma == 0 && has_tail(); }
     double alpha_of_tailed(double coordinate) const;
+    double alpha_at(double coordinate) const;
+    double tail_at(double coordinate) const;
+    double mu_of_dielectric(double x, double y, double eta) const;
     bool operator==(const Family& other) const;
 
     /// The values at (x, y, z) for every x of a row. Averages have their alpha along x, their tail
     /// along y. `nodes` of the quadrature.
     std::vector<Values> row(const std::vector<double>& x, double y, double z, int nodes) const;
+
+    /// The law of the row (y, z), but of averages. Of dielectrics it is the same for all z: it may
+    /// take as long to make as a point to integrate, and so can be given to all rows.
+    SlopeLaw law(double y, double z) const;
+    std::vector<Values> row(const SlopeLaw& law, const std::vector<double>& x, double y, double z,
+                            int nodes) const;
 
     /// Is (x, y, z) in the range that the error is promised for? Of dielectrics `share` of the
     /// least cosine is the bound.

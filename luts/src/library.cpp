@@ -75,6 +75,14 @@ std::string bake_command(const std::string& name)
     return "; 'regain bake " + name + " -o FOLDER' bakes it, and REGAIN_LUTS=FOLDER finds it";
 }
 
+// Axes of a few tables may change without table_definition, which makes all of them stale.
+bool has_axes_of(const std::string& name, const TableInfo& info)
+{
+    const TableInfo known = bakeable_info(name);
+    return info.axis_x == known.axis_x && info.axis_y == known.axis_y &&
+           info.axis_z == known.axis_z && info.transform == known.transform;
+}
+
 Table load(Library& lib, const std::string& name)
 {
     std::string places;
@@ -91,9 +99,13 @@ Table load(Library& lib, const std::string& name)
         try
         {
             Table table = read_table(file);
-            if (table.name() == name) return table;
-            throw std::runtime_error("cannot use table '" + file.string() + "': it holds '" +
-                                     table.name() + "'");
+            if (table.name() != name)
+                throw std::runtime_error("cannot use table '" + file.string() + "': it holds '" +
+                                         table.name() + "'");
+            if (!has_axes_of(name, table.info()))
+                throw std::runtime_error("cannot use table '" + file.string() +
+                                         "': it was baked over other axes than this library has");
+            return table;
         }
         catch (const std::runtime_error& e)
         {
@@ -158,6 +170,8 @@ DielectricTables dielectric_tables(const std::string& distribution, Transmission
     info.gamma = distribution == "gtr" || distribution == "std" ? gamma : 0;
     info.transmission_shadowing = shadowing == TransmissionShadowing::beta ? "beta" : "correlated";
     DielectricTables tables;
+    tables.near_index = shadowing == TransmissionShadowing::beta;
+    tables.tail = info.gamma != 0;
     for (int side = 0; side < 2; ++side)
     {
         info.side = side == 0 ? "outside" : "inside";

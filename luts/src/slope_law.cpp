@@ -3,6 +3,8 @@
 
 #include <regain/luts/slope_law.h>
 
+#include "octave_curve.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -57,68 +59,85 @@ double incomplete_beta(double a, double b, double x)
 
 }  // namespace
 
-// sigma / sin theta - s over s: what shadowing adds. By Chebyshev polynomials in ln s, piece by
-// piece.
+// sigma / sin theta - s over s: what shadowing adds.
 class SlopeLaw::Curve
 {
 public:
     // g over s in [lo, hi]. Below lo it is g(lo) + (lo - s) / 2, since half of all slopes face away
     // from the horizon; above hi it goes like s^power.
     Curve(const std::function<double(double)>& g, double lo, double hi, double power)
-        : _lo(lo), _hi(hi), _power(power)
-    {
-        const double from = std::log(lo), to = std::log(hi);
-        const int pieces = static_cast<int>(std::ceil((to - from) / 1.5));
-        _from = from;
-        _inv_width = pieces / (to - from);
-        for (int i = 0; i < pieces; ++i)
-        {
-            std::array<double, terms> values, c;
-            for (int k = 0; k < terms; ++k)
-            {
-                const double t = std::cos(pi * (k + 0.5) / terms);
-                values[at(k)] = g(std::exp(from + (i + 0.5 + 0.5 * t) / _inv_width));
-            }
-            for (int j = 0; j < terms; ++j)
-            {
-                double sum = 0;
-                for (int k = 0; k < terms; ++k)
-                    sum += values[at(k)] * std::cos(pi * j * (k + 0.5) / terms);
-                c[at(j)] = sum * (j == 0 ? 1.0 : 2.0) / terms;
-            }
-            _pieces.push_back(c);
-        }
-    }
+        : _inside(Chebyshev(g, lo, hi), lo, hi),
+          _at_lowest(_inside(lo)),
+          _at_highest(_inside(hi)),
+          _power(power)
+    {}
 
     double operator()(double s) const
     {
-        if (s < _lo) return inside(_lo) + 0.5 * (_lo - s);
-        if (s > _hi) return inside(_hi) * std::pow(s / _hi, _power);
-        return inside(s);
+        if (s < _inside.lowest()) return _at_lowest + 0.5 * (_inside.lowest() - s);
+        if (s > _inside.highest()) return _at_highest * std::pow(s / _inside.highest(), _power);
+        return _inside(s);
     }
 
 private:
-    static constexpr int terms = 14;
-    static constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-    double inside(double s) const
+    // Takes few values of g, which may be slow, to give the many that the curve is made of:
+    // polynomials in ln s, piece by piece.
+    class Chebyshev
     {
-        const double place = std::max(0.0, (std::log(s) - _from) * _inv_width);
-        const std::size_t i = std::min(static_cast<std::size_t>(place), _pieces.size() - 1);
-        const double t = 2 * (place - static_cast<double>(i)) - 1;
-        const std::array<double, terms>& c = _pieces[i];
-        double b1 = 0, b2 = 0;  // Clenshaw's recurrence
-        for (int j = terms - 1; j > 0; --j)
+    public:
+        Chebyshev(const std::function<double(double)>& g, double lo, double hi)
+            : _from(std::log(lo))
         {
-            const double b = 2 * t * b1 - b2 + c[at(j)];
-            b2 = b1;
-            b1 = b;
+            // A little more than asked for: the curve's cells end where they do.
+            const double range = std::log(hi / lo) + 0.2;
+            _from -= 0.1;
+            const int pieces = static_cast<int>(std::ceil(range / 1.5));
+            _inv_width = pieces / range;
+            for (int i = 0; i < pieces; ++i)
+            {
+                std::array<double, terms> values, c;
+                for (int k = 0; k < terms; ++k)
+                {
+                    const double t = std::cos(pi * (k + 0.5) / terms);
+                    values[at(k)] = g(std::exp(_from + (i + 0.5 + 0.5 * t) / _inv_width));
+                }
+                for (int j = 0; j < terms; ++j)
+                {
+                    double sum = 0;
+                    for (int k = 0; k < terms; ++k)
+                        sum += values[at(k)] * std::cos(pi * j * (k + 0.5) / terms);
+                    c[at(j)] = sum * (j == 0 ? 1.0 : 2.0) / terms;
+                }
+                _pieces.push_back(c);
+            }
         }
-        return t * b1 - b2 + c[0];
-    }
 
-    std::vector<std::array<double, terms>> _pieces;
-    double _lo, _hi, _power, _from, _inv_width;
+        double operator()(double s) const
+        {
+            const double place = std::max(0.0, (std::log(s) - _from) * _inv_width);
+            const std::size_t i = std::min(static_cast<std::size_t>(place), _pieces.size() - 1);
+            const double t = 2 * (place - static_cast<double>(i)) - 1;
+            const std::array<double, terms>& c = _pieces[i];
+            double b1 = 0, b2 = 0;  // Clenshaw's recurrence
+            for (int j = terms - 1; j > 0; --j)
+            {
+                const double b = 2 * t * b1 - b2 + c[at(j)];
+                b2 = b1;
+                b1 = b;
+            }
+            return t * b1 - b2 + c[0];
+        }
+
+    private:
+        static constexpr int terms = 14;
+        static constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+        double _from, _inv_width;
+        std::vector<std::array<double, terms>> _pieces;
+    };
+
+    OctaveCurve _inside;
+    double _at_lowest, _at_highest, _power;
 };
 
 SlopeLaw::SlopeLaw(Kind kind, double alpha, double gamma)
@@ -198,6 +217,48 @@ double SlopeLaw::density(double r) const
         case Kind::gtr:
             return _peak * std::exp((_gamma - 2) * std::log1p(r * r) - _gamma * std::log1p(t2));
         case Kind::std: return _peak * std::exp(-_gamma * std::log1p(t2 / (_gamma - 1)));
+    }
+    return 0;
+}
+
+double SlopeLaw::lever(double log_r) const
+{
+    // ln(1 + (r / width)^2), where the square may be beyond all doubles.
+    const auto log_sum = [&](double width) {
+        const double u = 2 * (log_r - std::log(width));
+        return u > 80 ? u : std::log1p(std::exp(u));
+    };
+    const double base = std::log(_peak) + 3 * log_r;
+    switch (_kind)
+    {
+        case Kind::ggx: return std::exp(base - 2 * log_sum(_alpha));
+        case Kind::beckmann:
+            return std::exp(base - std::exp(2 * std::min(100.0, log_r - std::log(_alpha))));
+        case Kind::gtr:
+            return std::exp(base + (_gamma - 2) * log_sum(1) - _gamma * log_sum(_alpha));
+        case Kind::std: return std::exp(base - _gamma * log_sum(std::sqrt(_gamma - 1) * _alpha));
+    }
+    return 0;
+}
+
+double SlopeLaw::tail_power() const
+{
+    switch (_kind)
+    {
+        case Kind::beckmann: return std::numeric_limits<double>::infinity();
+        case Kind::std: return 2 * _gamma - 3;
+        default: return 1;
+    }
+}
+
+double SlopeLaw::tail_begin() const
+{
+    switch (_kind)
+    {
+        case Kind::beckmann: return longest();
+        case Kind::ggx: return _alpha;
+        case Kind::gtr: return 1;
+        case Kind::std: return std::sqrt(_gamma - 1) * _alpha;
     }
     return 0;
 }

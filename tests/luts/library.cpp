@@ -53,17 +53,23 @@ protected:
         return text.find(part) != std::string::npos;
     }
     // Any table, under the name of one that is not shipped.
+    // A small table that says to be the one of that name.
+    static luts::TableInfo info_of(const std::string& name)
+    {
+        luts::TableInfo info = luts::bakeable_info(name);
+        info.offset = 0;
+        info.scale = 1.0 / 65535;
+        return info;
+    }
+    static luts::Table small(const luts::TableInfo& info)
+    {
+        return luts::Table(info, 2, 2, 2, std::vector<float>(8, 0.5f));
+    }
     static luts::Table as(const std::string& quantity, int definition = luts::table_definition)
     {
-        luts::TableInfo info;
-        info.distribution = "gtr";
-        info.gamma = 1.25;
-        info.quantity = quantity;
-        info.transmission_shadowing = "beta";
-        info.side = "inside";
+        luts::TableInfo info = info_of("gtr_1.25_" + quantity + "_beta_inside");
         info.definition = definition;
-        info.scale = 1.0 / 65535;
-        return luts::Table(info, 2, 2, 2, std::vector<float>(8, 0.5f));
+        return small(info);
     }
 
 private:
@@ -119,15 +125,7 @@ TEST_F(Library, a_missing_table_says_where_it_was_looked_for_and_what_bakes_it)
 TEST_F(Library, a_table_baked_for_one_gamma_is_found)
 {
     for (const std::string& name : luts::dielectric_table_names("gtr", 1.75))
-    {
-        luts::TableInfo info = as("E_S").info();
-        info.gamma = 1.75;
-        info.quantity = name.find("E_S") != std::string::npos ? "E_S" : "R_share";
-        info.transmission_shadowing =
-            name.find("beta") != std::string::npos ? "beta" : "correlated";
-        info.side = name.find("inside") != std::string::npos ? "inside" : "outside";
-        luts::write_table(file(name), luts::Table(info, 2, 2, 2, std::vector<float>(8, 0.5f)));
-    }
+        luts::write_table(file(name), small(info_of(name)));
     EXPECT_TRUE(luts::dielectric_tables("gtr", TransmissionShadowing::correlated, 1.75));
     EXPECT_THROW(luts::dielectric_tables("gtr", TransmissionShadowing::correlated, 1.76),
                  std::runtime_error);
@@ -148,6 +146,12 @@ TEST_F(Library, stale_cut_and_mistaken_files_are_refused_by_name)
     luts::write_table(file(name), as("E_S"));
     fs::resize_file(file(name), fs::file_size(file(name)) / 2);
     EXPECT_TRUE(contains(error_of(name), file(name).string()));
+
+    luts::TableInfo other = as("E_S").info();
+    other.axis_z = "eta";
+    luts::write_table(file(name), small(other));
+    EXPECT_TRUE(contains(error_of(name), "over other axes")) << error_of(name);
+    EXPECT_TRUE(contains(error_of(name), "regain bake " + name)) << error_of(name);
 
     // What was refused may be put right while the process runs.
     luts::write_table(file(name), as("E_S"));

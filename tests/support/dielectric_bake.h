@@ -2,9 +2,9 @@
 // Copyright Contributors to the Regain project
 
 /// @file
-/// Tables of E^S for a test, of one GGX interface: by quadrature, and constant along all axes but
-/// the cosine, where they have three times the nodes of real ones, so that what is off is not
-/// theirs. The axis is found by asking the tables themselves.
+/// Tables of E^S for a test, of one interface: by quadrature, and constant along all axes but the
+/// cosine, where they have three times the nodes of real ones, so that what is off is not theirs.
+/// The axis is found by asking the tables themselves.
 
 #pragma once
 
@@ -23,9 +23,12 @@ namespace regain::tests {
 class BakedDielectric
 {
 public:
-    /// index is at least 1; both sides are baked.
-    BakedDielectric(double alpha, double index, bool beta)
+    /// index is at least 1; both sides are baked. `tail`: over the axis of distributions that have
+    /// one.
+    BakedDielectric(const luts::SlopeLaw& law, double index, bool beta, bool tail = false)
     {
+        const double alpha = law.alpha();
+        _tables.tail = tail;
         for (int side = 0; side < 2; ++side)
         {
             _E[side].resize(4 * width);
@@ -51,7 +54,7 @@ public:
             std::vector<std::uint16_t> E, R;
             for (double m : mu)
             {
-                const auto a = luts::dielectric_albedo(luts::SlopeLaw::ggx(alpha), m, eta, 12);
+                const auto a = luts::dielectric_albedo(law, m, eta, tail ? 20 : 12);
                 const double T = beta ? a.transmitted_beta : a.transmitted_correlated;
                 const double share = a.reflected / (a.reflected + T);
                 E.push_back(stored(a.reflected + T));
@@ -101,7 +104,7 @@ inline const DielectricTables& baked_dielectric(double alpha, double eta, bool b
     static std::map<std::tuple<double, double, bool>, std::unique_ptr<BakedDielectric>> all;
     const double index = std::max(eta, 1 / eta);
     auto& one = all[{alpha, index, beta}];
-    if (!one) one = std::make_unique<BakedDielectric>(alpha, index, beta);
+    if (!one) one = std::make_unique<BakedDielectric>(luts::SlopeLaw::ggx(alpha), index, beta);
     return one->tables();
 }
 

@@ -11,7 +11,9 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cstdio>
 #include <thread>
+#include <vector>
 
 using nlohmann::json;
 using test::says;
@@ -25,6 +27,29 @@ protected:
     {
         return static_cast<std::size_t>(
             std::distance(std::filesystem::directory_iterator(folder / "tables"), {}));
+    }
+    // The exit code of baking these tables to FOLDER/tables, interrupted once a file is there. What
+    // it says goes to FOLDER/stderr.
+    int interrupted(const std::vector<std::string>& names, const std::filesystem::path& file) const
+    {
+        const std::string output = (folder / "tables").string(),
+                          said = (folder / "stderr").string();
+        std::vector<const char*> arguments{REGAIN_BINARY, "bake", "-o", output.c_str()};
+        for (const std::string& name : names) arguments.push_back(name.c_str());
+        arguments.push_back(nullptr);
+        const pid_t child = ::fork();
+        if (child == 0)
+        {
+            if (std::freopen(said.c_str(), "w", stderr) && std::freopen("/dev/null", "w", stdout))
+                ::execv(REGAIN_BINARY, const_cast<char* const*>(arguments.data()));
+            ::_exit(127);
+        }
+        for (int i = 0; i < 2000 && !std::filesystem::exists(file); ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        ::kill(child, SIGINT);
+        int status = -1;
+        ::waitpid(child, &status, 0);
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     }
     // The shipped table with one number changed.
     std::string tampered() const
@@ -162,24 +187,20 @@ TEST_F(BakeCommand, wrong_arguments_are_bad_input)
 
 TEST_F(BakeCommand, an_interrupt_leaves_nothing_behind)
 {
-    const std::string tables = (folder / "tables").string();
-    const pid_t child = ::fork();
-    ASSERT_GE(child, 0);
-    if (child == 0)
-    {
-        ::execl(REGAIN_BINARY, REGAIN_BINARY, "bake", "-o", tables.c_str(),
-                static_cast<char*>(nullptr));
-        ::_exit(127);
-    }
     // Once there is the folder, it bakes.
-    for (int i = 0; i < 1000 && !std::filesystem::exists(tables); ++i)
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    ::kill(child, SIGINT);
-    int status = -1;
-    ::waitpid(child, &status, 0);
-    ASSERT_TRUE(WIFEXITED(status));
-    EXPECT_EQ(WEXITSTATUS(status), 130);
+    EXPECT_EQ(interrupted({"gtr_E_ss"}, folder / "tables"), 130);
     EXPECT_EQ(files(), 0u);
+    EXPECT_TRUE(says(read("stderr"), "stopped, 0 of 1 tables were written")) << read("stderr");
+}
+
+TEST_F(BakeCommand, an_interrupt_leaves_the_tables_that_are_done)
+{
+    EXPECT_EQ(interrupted({"beckmann_E_avg", "gtr_E_ss"}, folder / "tables/beckmann_E_avg.exr"),
+              130);
+    EXPECT_EQ(files(), 1u);
+    EXPECT_EQ(regain::luts::read_table(folder / "tables/beckmann_E_avg.exr").name(),
+              "beckmann_E_avg");
+    EXPECT_TRUE(says(read("stderr"), "stopped, 1 of 2 tables were written")) << read("stderr");
 }
 
 TEST_F(BakeCommand, help_has_examples)

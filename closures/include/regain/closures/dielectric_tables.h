@@ -14,16 +14,23 @@
 ///     x   of the cosine. With s(t, a) = sqrt(t / (t + a (1 - t))), which gathers nodes within a of
 ///         t = 0,
 ///           side 0   s(mu, alpha), as for conductors
-///           side 1   kappa lies at the fixed coordinate c = 15/31, a node of 32
-///             and of 63, and
+///           side 1   kappa lies at the fixed coordinate c = 15/31, a node of 32,
+///             of 63 and of 94, and
 ///             mu < kappa    c (0.6 s(t, a) + 0.4 (1 - s(1 - t, a))),  t = mu / kappa,
 ///                           a = alpha / kappa
 ///             mu >= kappa   c + (1 - c) s(t, a),  t = (mu - kappa) / (1 - kappa),
 ///                           a = alpha / (1 - kappa);   a is limited to 1
+///         E^S of distributions with a tail changes at any cosine, however small alpha is, and
+///         like a power of theta near normal incidence. Of these alpha counts as 0.05 at least,
+///         and on side 0 and where mu >= kappa (s + 1 - sqrt(1 - s)) / 2 is in the place of s
 ///     y   sqrt(alpha)
 ///     z   (|eta - 1| / (eta + 1) / (3/5))^(1/4): 0 at eta 1, 1 at eta 4 and 1/4; beyond, the end
 ///         serves. Near 1 its square is proportional to the cosine at which Fresnel reflection sets
 ///         in, and it is small cosines that matter most.
+///         E^S of the beta form falls steeply at cosines below alpha, and from inside the axis x
+///         moves with kappa. So on side 1 it has, with r = (|eta - 1| / (eta + 1) / (3/5))^(1/2),
+///         ln(1 + 200 r) / ln(201), and on its axis x, where mu >= kappa, a has no bend at 1:
+///         a = alpha / (1 - kappa + alpha kappa)
 ///
 /// The reflected share is tabulated less w F(mu), w = k / (k + alpha^2), k = |eta_o^2 - 1|: where
 /// alpha is small, Fresnel's term at mu is the share of the surface, and what is left is smooth;
@@ -43,12 +50,24 @@ namespace detail {
 /// Where the critical cosine lies on the axis of side 1.
 constexpr double critical_coordinate = 15.0 / 31.0;
 
+/// The least alpha on the axis x of distributions with a tail.
+constexpr float tail_least_width = 0.05f;
+
 /// z above, of eta > 0.
 template <class Real>
 Real index_coordinate(Real eta)
 {
     return sqrt(sqrt(
         min(abs(eta - Real(1)) / (eta + Real(1)) * constant<Real>(5.0 / 3.0), constant<Real>(1))));
+}
+
+/// The same of E^S of side 1 in the beta form.
+template <class Real>
+Real near_index_coordinate(Real eta)
+{
+    const Real r =
+        sqrt(min(abs(eta - Real(1)) / (eta + Real(1)) * constant<Real>(5.0 / 3.0), Real(1)));
+    return log1p(Real(200) * r) * constant<Real>(1 / 5.303304908059076);
 }
 
 /// w above.
@@ -59,9 +78,18 @@ Real fresnel_weight(Real alpha, Real eta)
     return k / (k + alpha * alpha);
 }
 
+/// s above; mu in [0, 1], alpha in (0, 1].
+template <class Real>
+Real dielectric_cosine(Real mu, Real alpha, bool tail)
+{
+    const Real s = stretched_cosine(mu, alpha);
+    return tail ? Real(0.5f) * (s + Real(1) - sqrt(max(Real(1) - s, Real(0)))) : s;
+}
+
 /// x of side 1 above: mu in [0, 1], alpha in (0, 1], eta in (0, 1).
 template <class Real>
-Real critical_cosine_coordinate(Real mu, Real alpha, Real eta)
+Real critical_cosine_coordinate(Real mu, Real alpha, Real eta, bool tail = false,
+                                bool near_index = false)
 {
     const Real one(1), tiny = constant<Real>(1e-6);
     const Real kappa = sqrt(max((one - eta) * (one + eta), constant<Real>(1e-12)));
@@ -71,7 +99,8 @@ Real critical_cosine_coordinate(Real mu, Real alpha, Real eta)
 
     const Real room = max(one - kappa, tiny);
     const Real above = saturate((mu - kappa) / room);
-    const Real right = stretched_cosine(above, min(alpha / room, one));
+    const Real a_above = near_index ? alpha / (room + alpha * kappa) : min(alpha / room, one);
+    const Real right = dielectric_cosine(above, a_above, tail);
 
     const Real c = constant<Real>(critical_coordinate);
     return select(mu < kappa, c * left, c + (one - c) * right);
@@ -86,6 +115,8 @@ struct DielectricTables
     TableView E[2];            ///< E^S over (x, y, z), by side
     TableView R[2];            ///< E^R / E^S - w F(mu) over (x, y, z), by side
     bool logarithmic = false;  ///< E holds natural logarithms
+    bool near_index = false;   ///< E[1] runs along z of the beta form
+    bool tail = false;         ///< x is that of distributions with a tail
 
     explicit operator bool() const { return E[0] && E[1] && R[0] && R[1]; }
 
@@ -93,7 +124,7 @@ struct DielectricTables
     template <class Real>
     Real albedo(Real alpha, Real eta_o, Real mu) const
     {
-        const Real found = look_up(E, alpha, eta_o, mu);
+        const Real found = look_up(E, near_index, alpha, eta_o, mu);
         return detail::min(logarithmic ? detail::exp(found) : found, Real(1));
     }
 
@@ -103,22 +134,26 @@ struct DielectricTables
     {
         const Real F = DielectricFresnel<Real>(eta_o).reflectance(mu);
         const Real w = detail::fresnel_weight(alpha, eta_o);
-        return detail::saturate(w * F + look_up(R, alpha, eta_o, mu));
+        return detail::saturate(w * F + look_up(R, false, alpha, eta_o, mu));
     }
 
 private:
     template <class Real>
-    static Real look_up(const TableView (&table)[2], Real alpha, Real eta, Real mu)
+    Real look_up(const TableView (&table)[2], bool near, Real alpha, Real eta, Real mu) const
     {
-        const Real y = detail::sqrt(alpha), z = detail::index_coordinate(eta);
+        const Real width = tail ? detail::max(alpha, Real(detail::tail_least_width)) : alpha;
+        const Real y = detail::sqrt(alpha);
         const MaskOf<Real> dense_ahead = eta >= Real(1);
         Real outside(1), inside(1);
         if (detail::any<Real>(dense_ahead))
-            outside = table[0].at(stretched_cosine(mu, alpha), y, z);
+            outside = table[0].at(detail::dielectric_cosine(mu, width, tail), y,
+                                  detail::index_coordinate(eta));
         if (!detail::all<Real>(dense_ahead))
         {
             const Real below_1 = detail::select(dense_ahead, Real(0.5f), eta);
-            inside = table[1].at(detail::critical_cosine_coordinate(mu, alpha, below_1), y, z);
+            inside = table[1].at(
+                detail::critical_cosine_coordinate(mu, width, below_1, tail, near), y,
+                near ? detail::near_index_coordinate(below_1) : detail::index_coordinate(below_1));
         }
         return detail::select(dense_ahead, outside, inside);
     }

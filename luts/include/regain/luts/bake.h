@@ -47,6 +47,9 @@ REGAIN_LUTS_API std::vector<std::string> dielectric_table_names(const std::strin
 /// Throws std::invalid_argument, which says what names there are, unless bake knows this one.
 REGAIN_LUTS_API void require_bakeable(const std::string& name);
 
+/// What bake writes into the header of that table, but the error; throws as above.
+REGAIN_LUTS_API TableInfo bakeable_info(const std::string& name);
+
 /// The table of that name, on all cores; throws as require_bakeable does.
 ///
 /// Albedos are smooth but curved, and straight lines between exact nodes err to one side. So their

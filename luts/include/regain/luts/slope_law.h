@@ -52,6 +52,14 @@ public:
     /// P22 at the slope length r >= 0.
     double density(double r) const;
 
+    /// P22 r^3 at r = exp(log_r): the share in the mean slope per ln r. At any r, also where its
+    /// square is no number any more: where the tail is long, such slopes still count.
+    double lever(double log_r) const;
+
+    /// Far beyond tail_begin, P22 goes like r^-(3 + tail_power); infinite without a tail.
+    double tail_power() const;
+    double tail_begin() const;
+
     /// sigma(w) of a unit w with cos theta in [0, 1], finite at grazing angles.
     double projected_area(double cos_theta) const;
 

@@ -90,6 +90,24 @@ TYPED_TEST(FresnelLimits, an_index_of_0_reflects_everything)
         }
 }
 
+// n = 1, k = 0 is air: nothing is reflected, except along the surface, where 0 / 0 means 1 for any
+// other index and nothing is there to reflect for this one.
+TYPED_TEST(FresnelLimits, air_reflects_nothing)
+{
+    using Real = TypeParam;
+    for (double mu : cosines_)
+    {
+        const WhileLibraryRuns guard;
+        const Real metal = conductor<Real>(1, 0).at(Real(mu)).x,
+                   glass = DielectricFresnel<Real>(Real(1)).reflectance(Real(mu));
+        EXPECT_EQ(glass, 0) << mu;
+        if (mu >= 1e-7)
+        {
+            EXPECT_LE(metal, rounding<Real>) << mu;
+        }
+    }
+}
+
 // k = 0 is a dielectric: textures of k are black between the metal parts.
 TYPED_TEST(FresnelLimits, without_extinction_a_conductor_is_a_dielectric)
 {
@@ -104,6 +122,22 @@ TYPED_TEST(FresnelLimits, without_extinction_a_conductor_is_a_dielectric)
                        glass = DielectricFresnel<Real>(Real(n)).reflectance(Real(mu));
             EXPECT_NEAR(metal, glass, 8 * rounding<Real>) << n << " " << mu;
         }
+}
+
+// The textbook's complex arithmetic in long double, at extremes of n and k.
+TYPED_TEST(FresnelLimits, extreme_metals_follow_the_textbook)
+{
+    using Real = TypeParam;
+    for (double n : {1e-6, 0.05, 1.0, 3.0, 1e4})
+        for (double k : {1e-6, 0.5, 10.0, 1e4})
+            for (double mu : cosines_)
+            {
+                const Real rn = Real(n), rk = Real(k), rmu = Real(mu);
+                const double expected = double(fresnel(rn, rk, rmu));
+                const WhileLibraryRuns guard;
+                EXPECT_NEAR(conductor<Real>(n, k).at(rmu).x, expected, 4 * rounding<Real>)
+                    << n << " " << k << " " << mu;
+            }
 }
 
 // Head on, an artist's metal is the colour that was asked for; white has no index, and is 0.999.

@@ -103,6 +103,33 @@ TYPED_TEST(Indices, an_index_within_1e_7_of_1_turns_light_by_no_more)
     });
 }
 
+// The ends of the range, in closed form: F0 = ((eta - 1) / (eta + 1))^2 head on.
+TYPED_TEST(Indices, smooth_glass_at_the_ends_reflects_F0)
+{
+    using Real = TypeParam;
+    const auto wanted = [](const Kind<Real>& kind) {
+        return kind.is_bare() && kind.lobe == Lobe::dielectric && kind.mode == ScatterMode::RT;
+    };
+    for_each_kind<Real>(wanted, [](const auto& kind) {
+        for (double eta : {0.01, 0.5, 1.5, 100.0})
+            for (double side : {1.0, -1.0})
+            {
+                Parameters parameters = Parameters::white(0);
+                parameters.eta = eta;
+                const auto subject = kind.make(parameters);
+                const Vec3<Real> wo(0, 0, Real(side));
+                const double r = (eta - 1) / (eta + 1), F0 = r * r;
+                const auto R = subject->sample(wo, {Real(0.3), Real(0.6), Real(0)}),
+                           T = subject->sample(wo, {Real(0.3), Real(0.6), Real(1)});
+                EXPECT_NEAR(R.pdf, F0, 4 * rounding<Real>);
+                EXPECT_NEAR(T.pdf, 1 - F0, 4 * rounding<Real>);
+                EXPECT_LT((T.wi + wo).length(), rounding<Real>);
+                EXPECT_NEAR(R.weight.x, 1, rounding<Real>);
+                EXPECT_NEAR(T.weight.x, 1, rounding<Real>);
+            }
+    });
+}
+
 // Snell's law holds at the ends: sin_i = sin_o / eta.
 TYPED_TEST(Indices, smooth_glass_refracts_by_snells_law_at_any_index)
 {

@@ -172,6 +172,28 @@ TYPED_TEST(FresnelLimits, the_tint_multiplies_at_one_seventh)
         }
 }
 
+// An exponent of 0 makes (1 - mu)^0 = 1: the edge's colour everywhere, head on as well, in vectors
+// as well, where powers are taken by logarithms.
+TYPED_TEST(FresnelLimits, an_exponent_of_0_is_the_edge_everywhere)
+{
+    using Real = TypeParam;
+    const WhileLibraryRuns guard;
+    const Color3<Real> F0{Real(0.2)}, one{Real(1)}, F90{Real(0.7)};
+    const SchlickFresnel<Real> flat(F0, one, F90, Real(0));
+    for (double mu : cosines_) EXPECT_NEAR(flat.at(Real(mu)).x, 0.7, rounding<Real>) << mu;
+    EXPECT_NEAR(flat.normal_incidence().x, 0.7, rounding<Real>);
+    EXPECT_NEAR(flat.average().x, 0.7, rounding<Real>);
+}
+
+TEST(FresnelLimitsOfVectors, an_exponent_of_0_is_the_edge_everywhere)
+{
+    using Batch = xsimd::batch<float>;
+    const WhileLibraryRuns guard;
+    const Color3<Batch> F0{Batch(0.2f)}, one{Batch(1.0f)}, F90{Batch(0.7f)};
+    const SchlickFresnel<Batch> flat(F0, one, F90, Batch(0.0f));
+    for (double mu : cosines_) EXPECT_NEAR(flat.at(Batch(float(mu))).x.get(0), 0.7f, 2e-6f) << mu;
+}
+
 // Exponents at the other end: the edge is a line, and everything else F0.
 TYPED_TEST(FresnelLimits, an_exponent_of_100_leaves_F0_but_at_the_edge)
 {

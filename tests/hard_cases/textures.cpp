@@ -123,6 +123,33 @@ TYPED_TEST(Textures, a_huge_colour_is_the_end_of_its_range)
     }
 }
 
+// One bad channel: the other two are what they were.
+TYPED_TEST(Textures, a_bad_channel_leaves_the_others_alone)
+{
+    REGAIN_NEEDS_INFINITIES();
+    using Real = TypeParam;
+    for (const Painted& p : colours)
+        for_each_kind<Real>(
+            // Where samples choose by the colours' sum, or walk by them, channels are one.
+            [&](const auto& kind) {
+                return kind.lobe == p.lobe && !kind.has_added_lobe() && !kind.is_walk();
+            },
+            [&](const auto& kind) {
+                Parameters bad;
+                p.of(bad).y = tests::nan;
+                const auto a = kind.make(bad), b = kind.make(Parameters());
+                const auto wo = towards<Real>(0.5);
+                for (double mu : {0.4, -0.7})
+                {
+                    const auto f = a->eval(wo, towards<Real>(mu, 3)),
+                               g = b->eval(wo, towards<Real>(mu, 3));
+                    EXPECT_EQ(f.x, g.x);
+                    EXPECT_EQ(f.z, g.z);
+                    EXPECT_EQ(a->pdf(wo, towards<Real>(mu, 3)), b->pdf(wo, towards<Real>(mu, 3)));
+                }
+            });
+}
+
 // Numbers that are no colours but painted, too.
 TYPED_TEST(Textures, an_exponent_and_a_weight_of_no_number_are_what_their_headers_say)
 {

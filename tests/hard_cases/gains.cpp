@@ -80,6 +80,50 @@ TYPED_TEST(Gains, at_the_lowest_albedo_the_gain_is_equation_8)
     }
 }
 
+// The smallest number of a table of 16 bits. E is 1 / 65535, and the gain 65535.
+TYPED_TEST(Gains, the_smallest_number_of_a_table_gives_its_inverse)
+{
+    using Real = TypeParam;
+    const auto lobe = TestFixture::long_tailed();
+    const auto tables = TestFixture::constant_tables(ones);
+    for (Method method : all_methods)
+    {
+        if (method == Method::none) continue;
+        const WhileLibraryRuns guard;
+        const MethodGain<Real> gain(lobe, method, tables, Real(1));
+        // 1 - F + F E is E where F is 1, unless the compiler makes 1 - F (1 - E) of it again.
+        const double tolerance = fast_math ? 65535 * 65535 * 1e-7 : 0.5;
+        EXPECT_NEAR(gain.at(towards<Real>(0.3)).x, 65535, tolerance) << name(method);
+    }
+}
+
+// A table of a host that holds a 0: what is divided by is 1e-12 then, as the header says.
+TYPED_TEST(Gains, an_albedo_of_0_counts_as_1e_12)
+{
+    using Real = TypeParam;
+    const auto lobe = TestFixture::long_tailed();
+    const auto tables = TestFixture::constant_tables(zeros);
+    for (Method method :
+         {Method::normalise, Method::turquin, Method::turquin_eq13, Method::turquin_eq14})
+    {
+        const WhileLibraryRuns guard;
+        const MethodGain<Real> gain(lobe, method, tables, Real(1));
+        EXPECT_NEAR(gain.at(towards<Real>(0.3)).x, 1 + 1e12, 1e12 * rounding<Real>) << name(method);
+    }
+    // E_avg = 0 with F = 1 is 0 / 0: a surface that lets nothing out.
+    for (Method method : {Method::turquin_eq12, Method::series})
+    {
+        const WhileLibraryRuns guard;
+        const MethodGain<Real> gain(lobe, method, tables, Real(1));
+        examine(gain.at(towards<Real>(0.3)), name(method).data());
+    }
+    // An added lobe takes all, and gives back all times F_ms = E_avg / ... = 0.
+    const auto closure = kulla_conty(lobe, KullaContyForm::printed, tables);
+    const auto wo = towards<Real>(0.3);
+    examine(closure.eval(wo, towards<Real>(0.5, 3)), "eval");
+    for (Real u : {Real(0), Real(0.5), Real(1)}) examine(closure.sample(wo, {u, u, u}));
+}
+
 // The other end, where nothing is missing: the gain is 1, the added lobe black, bit for bit.
 TYPED_TEST(Gains, where_nothing_is_missing_nothing_is_added)
 {

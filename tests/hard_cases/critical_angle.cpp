@@ -91,6 +91,33 @@ TYPED_TEST(CriticalAngle, at_the_critical_cosine_F_and_1_minus_F_add_up)
     }
 }
 
+// Smooth glass from inside: beyond the angle a perfect mirror, and alone its transmission is none.
+TYPED_TEST(CriticalAngle, smooth_glass_is_a_perfect_mirror_beyond_it)
+{
+    using Real = TypeParam;
+    const auto wanted = [](const Kind<Real>& kind) { return kind.lobe == Lobe::dielectric; };
+    for_each_kind<Real>(wanted, [](const auto& kind) {
+        const Parameters parameters = Parameters::white(0);
+        const auto subject = kind.make(parameters);
+        const double critical = critical_cosine(1 / parameters.eta);
+        for (double mu : {critical - 1e-6, 0.5, 1e-3})
+            for (Real z : {Real(0), Real(0.5), Real(1)})
+            {
+                const auto wo = towards<Real>(-mu);
+                const auto s = subject->sample(wo, {Real(0.3), Real(0.6), z});
+                if (kind.mode == ScatterMode::T)
+                {
+                    EXPECT_FALSE(s.valid);
+                    continue;
+                }
+                ASSERT_TRUE(s.valid && s.delta && !s.transmitted);
+                EXPECT_EQ(s.pdf, 1);
+                EXPECT_NEAR(s.weight.x, 1, rounding<Real>);
+                EXPECT_LT((s.wi - Vec3<Real>(-wo.x, -wo.y, wo.z)).length(), rounding<Real>);
+            }
+    });
+}
+
 // And this side of it, the share of Fresnel's formulas passes, flat along the other side.
 TYPED_TEST(CriticalAngle, smooth_glass_transmits_1_minus_F_just_above_it)
 {

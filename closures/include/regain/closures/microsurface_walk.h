@@ -35,11 +35,11 @@ struct WalkPath
 {
     using Mask = MaskOf<Real>;
 
-    Vec3<Real> wi;        ///< unit
-    Color3<Real> weight;  ///< product of the facets' reflectances and of the closure's tints
-    Real bounces;         ///< facets met, 1 or more
-    Mask escaped;         ///< false: the walk was given up, see walk_limit
-    Mask transmitted;     ///< wi is on the other side of the surface
+    Vec3<Real> wi;               ///< unit
+    Color3<Real> weight;         ///< product of the facets' reflectances and of the closure's tints
+    Real bounces;                ///< facets met, 1 or more
+    Mask escaped = Mask(false);  ///< false: the walk was given up, see walk_limit
+    Mask transmitted = Mask(false);  ///< wi is on the other side of the surface
 };
 
 /// A walk that has not left after so many facets is given up. No conductor's is: on the surface

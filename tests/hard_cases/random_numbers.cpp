@@ -22,12 +22,16 @@ public:
         return {Real(0), std::numeric_limits<Real>::denorm_min(), Real(0.5), below_one<Real>,
                 Real(1)};
     }
+    /// Each end of each number with each end of each other.
     static std::vector<Vec3<Real>> corners()
     {
+        const std::vector<Real> end = ends();
+        const std::size_t n = end.size();
         std::vector<Vec3<Real>> all;
-        for (Real x : ends())
-            for (Real y : ends())
-                for (Real z : ends()) all.push_back({x, y, z});
+        for (std::size_t i = 0; i < n; ++i)
+            for (std::size_t j = 0; j < n; ++j)
+                for (std::size_t shift : {std::size_t(0), std::size_t(1)})
+                    all.push_back({end[i], end[j], end[(i + 2 * j + shift) % n]});
         return all;
     }
     static std::vector<Parameters> all_parameters()

@@ -282,6 +282,9 @@ TEST(DielectricKullaConty, a_vector_of_floats_answers_as_a_float_does)
                                baked_dielectric(0.3, 0.7, false));
         },
         1e-4, true);
+    using Batch = xsimd::batch<float>;
+    const Dielectric<GGX<Batch>> lobe(GGX<Batch>(Batch(0.5f)), Batch(1.5f));
+    EXPECT_TRUE(kulla_conty(lobe, baked_dielectric(0.3, 1.5, false)).traits().transmissive);
 }
 
 template <class Real>

@@ -4,12 +4,15 @@
 // One source, three number types: float, double and a vector of floats say the same.
 
 #include "../support/closures.h"
+#include "../support/trapped.h"
 
+#include <regain/closures/gaussian_tail.h>
 #include <regain/closures/xsimd.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 using namespace regain;
@@ -140,6 +143,26 @@ TEST(NumberTypes, a_vector_of_floats_answers_as_a_float_does)
         compare_batch_with_scalar<Gold>(method);
         compare_batch_with_scalar<ArtistsGold>(method);
     }
+}
+
+// Lanes that are not asked for hold whatever a formula makes of its ends. Scalars raise no
+// exception there, and a host that traps them meets none of vectors either.
+TEST(NumberTypes, functions_of_vectors_raise_no_exception_at_their_ends)
+{
+    const float huge = std::numeric_limits<float>::max(), nan = std::nanf("");
+    const Batch zero(0.0f), one(1.0f), large(huge), none(nan);
+    const tests::Trapped trapped;
+    EXPECT_EQ(detail::exp(-large).get(0), 0);
+    EXPECT_EQ(detail::exp(one).get(0), xsimd::exp(one).get(0));
+    EXPECT_LT(detail::erfc(large).get(0), 1e-30f);
+    EXPECT_EQ(detail::erfc(one).get(0), xsimd::erfc(one).get(0));
+    EXPECT_EQ(detail::pow(zero, one).get(0), 0);
+    EXPECT_EQ(detail::pow(zero, zero).get(0), 1);
+    EXPECT_NEAR(detail::pow(Batch(0.3f), Batch(2.5f)).get(0), std::pow(0.3f, 2.5f), 1e-7f);
+    EXPECT_LT(detail::ierfc(large).get(0), 1e-30f);
+    for (const auto& [a, b] : {std::pair(none, one), std::pair(one, none), std::pair(one, zero)})
+        EXPECT_FALSE(detail::any<Batch>(detail::quiet_less(a, b)));
+    EXPECT_TRUE(detail::all<Batch>(detail::quiet_less(zero, one)));
 }
 
 // Median and 99.9th percentile of the relative difference of eval, and the worst albedo.

@@ -11,10 +11,12 @@ set -euo pipefail
 
 source=$1 scratch=$2 program=${3-}
 rm -rf -- "$scratch"
-mkdir -p "$scratch/bin" "$scratch/tree/closures/include/regain/closures"
+mkdir -p "$scratch/bin" "$scratch/tree/closures/include/regain/closures" \
+    "$scratch/tree/tests/hard_cases"
 tree=$(cd -- "$scratch/tree" && pwd -P)
 bin=$(cd -- "$scratch/bin" && pwd -P)
 cp "$source/regain" "$source/CMakePresets.json" "$tree/"
+cp "$source/tests/hard_cases/matrix.sh" "$tree/tests/hard_cases/"
 cp "$source/closures/include/regain/closures/version.h" "$tree/closures/include/regain/closures/"
 
 failures=0
@@ -55,6 +57,17 @@ if [[ \$1 == --preset ]]; then
     touch '$tree/build/release/build.ninja'
     echo 'CMAKE_HOME_DIRECTORY:INTERNAL=$tree' >'$tree/build/release/CMakeCache.txt'
     echo "\${!#}" | sed 's/^-D//; s/=/:BOOL=/' >>'$tree/build/release/CMakeCache.txt'
+elif [[ \$1 == -S ]]; then
+    echo "\$*" | grep -q -- '-DREGAIN_BUILD_TESTS=ON' && mkdir -p "\$4/tests/hard_cases"
+elif [[ \$2 == */matrix/* ]]; then
+    [[ \$2 != */g++-O2 ]] || { echo 'a.cpp:1: error: expected something'; exit 1; }
+    cat >"\$2/tests/hard_cases/hard_cases_test" <<'PROGRAM'
+#!/usr/bin/env bash
+echo '[  PASSED  ] 5 tests.'
+[[ \$0 != *fast-math* ]] || echo '[  SKIPPED ] 2 tests, listed below:'
+[[ \$0 != *traps* ]] || kill -FPE \$\$
+PROGRAM
+    chmod +x "\$2/tests/hard_cases/hard_cases_test"
 elif [[ -e '$scratch/build-fails' ]]; then
     echo '[1/2] Building a.o'
     echo 'a.cpp:1: error: expected something'
@@ -67,6 +80,10 @@ fi
 END
 stand_in ninja <<<''
 stand_in c++ <<<''
+stand_in g++ <<<''
+stand_in clang++ <<END
+[[ -e '$scratch/clang-sanitizes' ]]
+END
 stand_in ctest <<END
 cat '$scratch/ctest-says'
 exit "\$(cat '$scratch/ctest-exit')"
@@ -159,6 +176,41 @@ echo 'No tests were found!!!' >"$scratch/ctest-says"
 launch '' test
 check 'no tests are a failure' exits 1
 check 'no tests are counted as none' last_line '0 passed, 0 failed'
+
+# The matrix: a build that fails and a program that is stopped keep nothing from being tried.
+launch '' test --help
+check 'the help of test tells of the matrix' says stdout '--matrix'
+check 'the help of test lists its configurations' says stdout 'clang\+\+-fast-math'
+check 'the help of test needs no set-up' calls_nothing
+launch '' test --matrix g++-O7
+check 'an unknown configuration is bad input' exits 2
+check 'an unknown configuration is named, and those there are' \
+    says stderr "no configuration 'g\+\+-O7'.* g\+\+-O2 "
+check 'an unknown configuration is refused before any set-up' calls_nothing
+echo 1000 >"$scratch/uid"
+launch '' test --matrix
+check 'without root the matrix names the packages it misses' exits 2
+check 'the line to run for the matrix stands alone' says stderr '^sudo .* libclang-rt-dev$'
+check 'without what it needs the matrix builds nothing' not called '^cmake'
+echo 0 >"$scratch/uid"
+touch "$scratch/clang-sanitizes"
+launch '' test --matrix
+check 'with both compilers the matrix installs nothing' not called '^apt-get'
+check 'the matrix does not configure the release build' not called '^cmake --preset'
+check 'the matrix configures for g++' called '^cmake .*-DCMAKE_CXX_COMPILER=g\+\+ '
+check 'the matrix configures for clang++' called '^cmake .*-DCMAKE_CXX_COMPILER=clang\+\+ '
+check 'the matrix builds the hard cases only' called '^cmake --build .*--target hard_cases_test$'
+check 'a configuration that passes has a line' says stdout '^g\+\+-O0: passed, 5 tests$'
+check 'what is not promised is told' \
+    says stdout '^clang\+\+-fast-math: passed, 5 tests; 2 are not promised with these flags$'
+check 'a configuration that does not build has a line' says stdout '^g\+\+-O2: FAILED, .*build'
+check 'what the compiler said of it is shown' says stderr 'expected something'
+check 'a program that is stopped has a line' says stdout '^clang\+\+-traps: FAILED, exit code 136'
+check 'the matrix counts in its last line' last_line '9 passed, 3 failed'
+check 'a failed configuration gives exit code 1' exits 1
+launch '' test --matrix clang++-O2 g++-sanitize
+check 'only those that are named run' last_line '2 passed, 0 failed'
+check 'passed configurations give exit code 0' exits 0
 
 touch "$scratch/build-fails"
 launch '' render

@@ -142,8 +142,8 @@ Real visible_gaussian_slope_above(const Real& cotangent, const Real& u)
     const Real c = min(cotangent, Real(1e8f)), scale = Real(1) / (Real(1) + c);
     const Real half = Real(0.5f) * scale,
                weight = constant<Real>(0.886226925452758013649) * c * scale;
-    const Real gauss_at_c = exp(-min(c * c, Real(60)));
-    const Real total = half * gauss_at_c + weight * (Real(2) - erfc(min(c, Real(9))));
+    const Real gauss_at_c = detail::exp(-min(c * c, Real(60)));
+    const Real total = half * gauss_at_c + weight * (Real(2) - detail::erfc(min(c, Real(9))));
     const Real target = u * total;
 
     // With 1 - b^2 for exp(-erf_inverse(b)^2), as Jakob 2014 starts, this is quadratic in b.
@@ -164,7 +164,7 @@ Real visible_gaussian_slope_above(const Real& cotangent, const Real& u)
     const Real sign = select(lower, scale, -scale);
     for (int step = 0; step < slope_steps; ++step)
     {
-        const Real gauss = exp(-x * x), beyond = half * gauss + weight * erfc(x);
+        const Real gauss = detail::exp(-x * x), beyond = half * gauss + weight * detail::erfc(x);
         const Real part = select(lower, max(total - beyond, ulp), beyond);
         const Real height = max(x + c, constant<Real>(1e-9));
         const Real excess = Real(2) * (part - goal) / (part + goal);

@@ -20,7 +20,11 @@
 ///
 /// wo and wi are unit vectors in the local shading frame and point away from the surface. A wo that
 /// is no unit vector, or lies below the horizon of a closure that only reflects, gets black, a pdf
-/// of 0 and no samples; so does such a wi.
+/// of 0 and no samples; so does such a wi. Unit is what has a length within half a per cent of 1; a
+/// cosine of 1e-12 or less is on the horizon, which is below it, seen from either side.
+///
+/// A u of 1 is taken, too, as it comes of a double that is rounded to float. One that is beyond
+/// [0, 1], or no number, gives one of the closure's samples or none.
 
 #pragma once
 

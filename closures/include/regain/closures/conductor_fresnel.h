@@ -12,6 +12,8 @@
 /// with e = (n + ik)^2, s2 = 1 - mu^2, a = Re sqrt(e - s2). The usual form subtracts nearly equal
 /// numbers and has, in float, errors of 13 per cent in 1 - F of metals with high k.
 ///
+/// With n = 0 all is reflected; with k = 0 it is a dielectric, with n = 1 besides nothing at all.
+///
 /// Interface as in constant_fresnel.h; n and k are no colours and need no colour management.
 
 #pragma once
@@ -70,8 +72,11 @@ private:
         // Keeps 0 / 0 out where n = 0, and where n = 1, k = 0 meets grazing incidence.
         const Real tiny = detail::constant<Real>(1e-30);
 
-        const Real mu2 = mu * mu, s2 = detail::max(Real(1) - mu2, Real(0));
-        const Real nk = n * k, t0 = (n - k) * (n + k) - s2;
+        const Real mu2 = mu * mu, s2 = detail::max((Real(1) - mu) * (Real(1) + mu), Real(0));
+        // Re (e - s2), of metals that are nearly air by what their index differs from 1.
+        const Real nk = n * k,
+                   t0 = detail::select(n > Real(0.5f), (n - Real(1)) * (n + Real(1)) - k * k + mu2,
+                                       (n - k) * (n + k) - s2);
         const Real modulus = detail::sqrt(t0 * t0 + Real(4) * nk * nk);
         const Real root = detail::sqrt(Real(0.5f) * (modulus + detail::abs(t0)));
         const Real a = detail::select(t0 >= Real(0), root, nk / detail::max(root, tiny));

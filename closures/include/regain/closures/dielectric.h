@@ -24,7 +24,8 @@
 /// direction that the macroscopic surface refracts it to, while reflection stays rough. Its weight
 /// is then the G2 / G1(wo) that the rough lobe tends to, so that neither the albedo nor its
 /// compensation jumps, and its pdf the 1 - F of the facet that was drawn, whose mean is P(delta).
-/// At eta = 1 nothing is reflected.
+/// At eta = 1 nothing is reflected. A flat surface of mode T samples nothing beyond the critical
+/// angle.
 
 #pragma once
 
@@ -167,7 +168,9 @@ public:
 
             Sample<Real> s;
             s.pdf = detail::select(is_delta, choice, t.density);
-            s.valid = detail::both<Real>(_valid & on_its_side & (s.pdf > Real(0)),
+            // Of a lobe alone, what the facet lets through may be nothing.
+            const Mask passes = reflect | (share > Real(0));
+            s.valid = detail::both<Real>(_valid & on_its_side & passes & (s.pdf > Real(0)),
                                          is_delta | (t.valid & (reflect | refraction.valid)));
             s.delta = s.valid & is_delta;
             s.transmitted = s.valid & !reflect;

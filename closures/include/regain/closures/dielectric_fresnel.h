@@ -55,13 +55,15 @@ public:
         // Keeps 0 / 0 out at grazing incidence on eta = 1.
         const Real tiny = detail::constant<Real>(1e-18);
         const Real c = detail::max(mu, tiny), k = _eta.square_minus_one();
-        const Real eta2 = _eta.eta * _eta.eta, g2 = k + c * c;
+        const Real eta2 = _eta.eta * _eta.eta, g2 = _eta.g2(c);
         const MaskOf<Real> refracts = g2 > Real(0);
         const Real g = detail::sqrt(detail::select(refracts, g2, Real(1)));
 
         const Real inv_s = Real(1) / (g + c), inv_p = Real(1) / (eta2 * c + g);
         const Real r_s = k * inv_s * inv_s;
-        const Real r_p = k * ((eta2 + Real(1)) * c * c - Real(1)) * inv_p * inv_p;
+        // (eta^2 + 1) c^2 - 1 of a small eta, head on, is eta^2.
+        const Real over = eta2 * c * c - (Real(1) - c) * (Real(1) + c);
+        const Real r_p = k * over * inv_p * inv_p;
         const Real F = Real(0.5f) * (r_s * r_s + r_p * r_p);
         // A product of quotients: c g underflows before it is divided by squares.
         const Real T = Real(2) * (c * inv_s * (g * inv_s) + eta2 * (c * inv_p) * (g * inv_p));

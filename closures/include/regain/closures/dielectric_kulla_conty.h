@@ -105,7 +105,7 @@ public:
         Traits t;
         t.reciprocal = true;
         t.exact_pdf = true;
-        t.transmissive = _transmission != Color(Real(0));
+        t.transmissive = detail::any<Real>(total(_transmission) > Real(0));
         t.random_numbers = random_numbers;
         return t;
     }
@@ -231,8 +231,6 @@ public:
             const Mask not_a = !a, not_b = !b;
             return (a & not_b) | (not_a & b);
         }
-        static Real total(const Color& c) { return c.x + c.y + c.z; }
-
         DielectricMissingEnergyLobe _lobe;
         Mask _valid;
         Vec3<Real> _wo;
@@ -246,6 +244,8 @@ public:
 
 private:
     using Missing = MissingEnergy<Real, 3, 16>;
+
+    static Real total(const Color& c) { return c.x + c.y + c.z; }
 
     // 1 - E^S at mu in [0, 1], seen from where eta is the index ahead over the index behind.
     Real loss(Real eta, Real mu) const

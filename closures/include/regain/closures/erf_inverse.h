@@ -52,8 +52,8 @@ Real erf_inverse(const Real& y)
         {
             // By erfc, which keeps its digits where erf is nearly 1.
             const Real a = abs(x);
-            const Real excess = ((Real(1) - abs(b)) - erfc(a)) *
-                                (constant<Real>(0.886226925452758013649) * exp(a * a));
+            const Real excess = ((Real(1) - abs(b)) - detail::erfc(a)) *
+                                (constant<Real>(0.886226925452758013649) * detail::exp(a * a));
             const Real shift = excess / (Real(1) + a * excess);
             x = select(b < Real(0), -(a - shift), a - shift);
         }

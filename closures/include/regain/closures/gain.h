@@ -14,6 +14,8 @@
 ///     static constexpr bool reciprocal = true;                keeps f(wo, wi) = f(wi, wo)
 ///     static constexpr bool energy_preserving = true;         makes the albedo 1 where F = 1
 ///
+/// Both are asked about unit directions only, whatever the closure is asked about.
+///
 /// The gain of a direction pair is at(wo) * pair(wo, wi). It is finite, not negative, and
 /// dimensionless. No gain changes a direction or a pdf.
 

@@ -46,18 +46,18 @@ Real erfcx_deficit(const Real& x)
     const MaskOf<Real> far = x >= constant<Real>(gaussian_tail_begin<Real>);
     if (all<Real>(far)) return erfcx_deficit_far(x);
     const Real begin = constant<Real>(gaussian_tail_begin<Real>), at = min(x, begin);
-    const Real near =
-        Real(1) - constant<Real>(1.77245385090551602730) * at * (exp(at * at) * erfc(at));
+    const Real near = Real(1) - constant<Real>(1.77245385090551602730) * at *
+                                    (detail::exp(at * at) * detail::erfc(at));
     return any<Real>(far) ? select(far, erfcx_deficit_far(max(x, begin)), near) : near;
 }
 
 template <class Real>
 Real ierfc(const Real& x)
 {
-    const Real gauss = constant<Real>(0.564189583547756286948) * exp(-x * x);
+    const Real gauss = constant<Real>(0.564189583547756286948) * detail::exp(-x * x);
     const MaskOf<Real> far = x >= constant<Real>(gaussian_tail_begin<Real>);
     if (all<Real>(far)) return gauss * erfcx_deficit_far(x);
-    const Real near = gauss - x * erfc(x);
+    const Real near = gauss - x * detail::erfc(x);
     if (!any<Real>(far)) return near;
     const Real begin = constant<Real>(gaussian_tail_begin<Real>);
     return select(far, gauss * erfcx_deficit_far(max(x, begin)), near);

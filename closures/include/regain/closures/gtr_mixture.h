@@ -76,7 +76,7 @@ public:
 
         // C(m, j) (1-beta)^j Gamma(2+j) / Gamma(2-delta+j), over the j + 1 of the laws' densities.
         // Their t^(j+1) goes with u^j to (beta u / t)^j / t, where beta u / t is at most 1.
-        const Real rest = -expm1(log_beta);
+        const Real rest = -detail::expm1(log_beta);
         Real up(1), down(1);
         for (int j = 0; j <= _orders; ++j)
         {
@@ -188,7 +188,7 @@ private:
     {
         const Real one(1), first = constant<Real>(-reach);
         // Laws of a higher order are narrower, and need more nodes near t = beta.
-        const Real last = constant<Real>(reach) + constant<Real>(1.5) * log1p(m);
+        const Real last = constant<Real>(reach) + constant<Real>(1.5) * detail::log1p(m);
         const Real range = last - log_beta - first;
         const Real widest = constant<Real>(step) / (one + constant<Real>(0.1) * m);
         // As many as each lane needs, so that a lane answers as it would alone.
@@ -204,11 +204,11 @@ private:
 
         // The tails are sums over e^(-a h i) and e^(-delta h i). All weights are multiplied by
         // these, so that they are finite at a = 0 and delta = 0, where one node has it all.
-        const Real open_left = -expm1(-a * h), open_right = -expm1(-delta * h);
+        const Real open_left = -detail::expm1(-a * h), open_right = -detail::expm1(-delta * h);
 
         add_tail(beta, first - h, a, h, open_right, false);
-        const Real ratio = exp(h), power_ratio = exp(a * h);
-        Real s = exp(first), power = h * open_left * open_right * exp(a * first);
+        const Real ratio = detail::exp(h), power_ratio = detail::exp(a * h);
+        Real s = detail::exp(first), power = h * open_left * open_right * detail::exp(a * first);
         for (int i = 0; i < inner; ++i)
         {
             const Real wide = one + beta * s, narrow = one + s;
@@ -218,7 +218,8 @@ private:
             power *= select(mine, power_ratio, one);
         }
         // The other end is the same in 1 / (beta s).
-        add_tail(beta, -last - h, delta, h, open_left * exp((delta - one) * log_beta), true);
+        add_tail(beta, -last - h, delta, h, open_left * detail::exp((delta - one) * log_beta),
+                 true);
     }
 
     // One node for all those at log s = first, first - h, first - 2h ... of the weight
@@ -227,13 +228,13 @@ private:
     void add_tail(const Real& beta, const Real& first, const Real& a, const Real& h,
                   const Real& scale, bool mirrored)
     {
-        const Real one(1), s = exp(first), c1 = one + beta, c2 = one + beta * c1;
-        const Real open = -expm1(-a * h), open1 = open / -expm1(-(a + one) * h),
-                   open2 = open / -expm1(-(a + Real(2)) * h),
-                   open3 = open / -expm1(-(a + Real(3)) * h);
+        const Real one(1), s = detail::exp(first), c1 = one + beta, c2 = one + beta * c1;
+        const Real open = -detail::expm1(-a * h), open1 = open / -detail::expm1(-(a + one) * h),
+                   open2 = open / -detail::expm1(-(a + Real(2)) * h),
+                   open3 = open / -detail::expm1(-(a + Real(3)) * h);
         const Real mass = one - s * (c1 * open1 - s * c2 * open2);
         const Real mean = s * (open1 - s * (c1 * open2 - s * c2 * open3)) / mass;
-        const Real weight = h * scale * exp(a * first) * mass;
+        const Real weight = h * scale * detail::exp(a * first) * mass;
         const Real wide = one + beta * mean, narrow = one + mean;
         if (mirrored)
             add(weight, beta * narrow / wide, one / narrow);

@@ -60,9 +60,10 @@ Color3<Real> kulla_conty_tint(KullaContyForm form, const Color3<Real>& F_ss, Rea
 {
     return detail::per_channel(F_ss, [&](Real F) {
         const Real numerator = form == KullaContyForm::printed ? F : F * F;
-        // 0 / 0 where F = 1 and nothing is reflected once.
+        // 1 - F (1 - E_avg), which does not cancel where F is 1; then 0 / 0 where nothing is
+        // reflected once.
         return numerator * E_avg /
-               detail::max(Real(1) - F * (Real(1) - E_avg), detail::constant<Real>(1e-9));
+               detail::max(Real(1) - F + F * E_avg, detail::constant<Real>(1e-9));
     });
 }
 

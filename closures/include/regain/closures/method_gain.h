@@ -17,7 +17,8 @@
 ///                                                                  that does not count the first
 ///                                                                  bounce twice (Hill 2018)
 ///
-/// F_ms does not depend on a direction, so it is computed once, when the gain is built.
+/// F_ms does not depend on a direction, so it is computed once, when the gain is built. A table may
+/// hold albedos of 0, which count as 1e-12 where they are divided by.
 
 #pragma once
 
@@ -92,7 +93,7 @@ public:
     {
         if (!_bound) return Color(Real(1));
         const Real E = _tables.albedo(_axes, detail::saturate(wo.z));
-        return Color(Real(1)) + _F_ms * ((Real(1) - E) / E);
+        return Color(Real(1)) + _F_ms * ((Real(1) - E) / detail::max(E, least_albedo()));
     }
 
     /// Every method has F_ms = 1 where F = 1, so at full strength the albedo is 1 there; of an
@@ -109,9 +110,8 @@ private:
             case Method::normalise: return one;
             case Method::turquin: return fresnel.normal_incidence();
             case Method::turquin_eq12:
-                return detail::per_channel(fresnel.average(), [&](Real F_ss) {
-                    return E_avg / (Real(1) - F_ss * (Real(1) - E_avg));
-                });
+                return detail::per_channel(fresnel.average(),
+                                           [&](Real F_ss) { return E_avg / kept(F_ss, E_avg); });
             case Method::turquin_eq13:
                 return detail::per_channel(fresnel.average(), [&](Real F_ss) {
                     // pow of 0 in a vector goes through log.
@@ -121,13 +121,19 @@ private:
                 });
             case Method::turquin_eq14: return fresnel.average();
             case Method::series:
-                return detail::per_channel(fresnel.average(), [&](Real F_ss) {
-                    return F_ss * E_avg / (Real(1) - F_ss * (Real(1) - E_avg));
-                });
+                return detail::per_channel(
+                    fresnel.average(), [&](Real F_ss) { return F_ss * E_avg / kept(F_ss, E_avg); });
             case Method::none: break;
         }
         return Color(Real(0));
     }
+
+    // 1 - F_ss (1 - E_avg), which does not cancel where F_ss is 1.
+    static Real kept(Real F_ss, Real E_avg)
+    {
+        return detail::max(Real(1) - F_ss + F_ss * E_avg, least_albedo());
+    }
+    static Real least_albedo() { return detail::constant<Real>(1e-12); }
 
     MicrofacetTables _tables;
     TableAxes<Real> _axes;

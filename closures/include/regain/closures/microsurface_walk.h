@@ -35,11 +35,10 @@ struct WalkPath
 {
     using Mask = MaskOf<Real>;
 
-    Vec3<Real> wi;        ///< unit
-    Color3<Real> weight;  ///< product of the facets' reflectances and of the closure's tints
-    Real bounces;         ///< facets met, 1 or more
-    // Set from the start, as a path is copied before they are known, and an unset flag must not be.
-    Mask escaped = Mask(false);      ///< false: the walk was given up, see walk_limit
+    Vec3<Real> wi;               ///< unit
+    Color3<Real> weight;         ///< product of the facets' reflectances and of the closure's tints
+    Real bounces;                ///< facets met, 1 or more
+    Mask escaped = Mask(false);  ///< false: the walk was given up, see walk_limit
     Mask transmitted = Mask(false);  ///< wi is on the other side of the surface
 };
 

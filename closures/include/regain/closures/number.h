@@ -95,6 +95,9 @@ using IndexOf = typename NumberTraits<Real>::Index;
 template <class Real>
 using BitsOf = typename NumberTraits<Real>::Bits;
 
+/// The functions by their own name, for all number types. A vector's library has some of the same
+/// name, which the compiler prefers unless detail:: stands before: those of exponentials and
+/// logarithms have to be called with it, for NumberTraits may know of more cases than the library.
 namespace detail {
 
 template <class T>

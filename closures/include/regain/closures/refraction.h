@@ -50,6 +50,15 @@ struct RelativeIndex
 
     /// eta^2 - 1.
     Real square_minus_one() const { return minus_one * (eta + Real(1)); }
+
+    /// g^2 = eta^2 - (1 - c^2) of the cosine c in [0, 1]: not positive where all is reflected. Near
+    /// 1 by what eta differs from it, which is all there is at grazing angles; else by eta, which
+    /// is all there is head on where eta is small.
+    Real g2(Real c) const
+    {
+        return detail::select(eta < Real(0.5f), eta * eta - (Real(1) - c) * (Real(1) + c),
+                              square_minus_one() + c * c);
+    }
 };
 
 namespace detail {
@@ -78,7 +87,7 @@ Refraction<Real> refract(const Vec3<Real>& wo, const Vec3<Real>& m,
                          const RelativeIndex<Real>& eta_o)
 {
     const Real c = detail::dot(wo, m), k = eta_o.square_minus_one();
-    const Real g2 = k + c * c;
+    const Real g2 = eta_o.g2(c);
 
     Refraction<Real> r;
     r.valid = detail::both<Real>(c > Real(0), g2 > Real(0));

@@ -27,14 +27,16 @@ public:
 
     /// F0: colour at normal incidence; F82: tint at 82 degrees, 1 leaves Schlick's curve alone;
     /// F90: colour at grazing; all in [0, 1] per channel, clamped, NaN becomes 0. exponent in [0,
-    /// 100], clamped, NaN becomes 5.
+    /// 100], clamped, NaN becomes 5; with 0 the curve is F90 everywhere.
     explicit SchlickFresnel(const Color& F0, const Color& F82 = Color(Real(1)),
                             const Color& F90 = Color(Real(1)), Real exponent = Real(5))
     {
         const auto clamped = [](Real v) { return detail::saturate(v); };
-        _F0 = detail::per_channel(F0, clamped);
-        _edge = detail::per_channel(F90, clamped) - _F0;
+        const Color edge = detail::per_channel(F90, clamped);
         _exponent = detail::sanitised(exponent, 0, 100, 5);
+        // (1 - mu)^0 is 1 at mu = 1, too, which a power by logarithms does not know.
+        _F0 = detail::select(_exponent > Real(0), detail::per_channel(F0, clamped), edge);
+        _edge = edge - _F0;
         _is_quintic = detail::all<Real>(_exponent == Real(5));
 
         const Color tint = detail::per_channel(F82, clamped);
@@ -73,7 +75,10 @@ public:
         const Color room = _F0 + lowest - _dip * detail::constant<Real>(dip_at_82);
         const MaskOf<Real> exact = detail::min(room.x, detail::min(room.y, room.z)) >= Real(0);
         if (detail::all<Real>(exact)) return closed_form;
-        return detail::select(exact, closed_form, average_by_quadrature());
+        const Color sum = average_by_quadrature();
+        return {detail::select(room.x >= Real(0), closed_form.x, sum.x),
+                detail::select(room.y >= Real(0), closed_form.y, sum.y),
+                detail::select(room.z >= Real(0), closed_form.z, sum.z)};
     }
 
 private:

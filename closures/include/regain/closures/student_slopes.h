@@ -108,14 +108,14 @@ private:
         const Real k = select(steep, _p - Real(1), _beyond);
         const Real log_ratio = limited(-log(number_of(u.x)) / k -
                                        select(steep, log(number_of(v)) / (k + Real(1)), Real(0)));
-        const Real extra = (Real(1) + a2) * expm1(log_ratio);  // x^2 - a^2
+        const Real extra = (Real(1) + a2) * detail::expm1(log_ratio);  // x^2 - a^2
         const Real square = a2 + extra, x = sqrt(square), height = extra / (a + x);
 
         Try t;
         t.along = x;
         t.across = sin(angle_of(u.y)) * across_of(square, u.z);
         const Real chance =
-            select(steep, Real(2) * a2 * exp(Real(0.5f) * log_ratio), height * (x + a));
+            select(steep, Real(2) * a2 * detail::exp(Real(0.5f) * log_ratio), height * (x + a));
         t.taken = w * x * (x + a) < chance;
         return t;
     }
@@ -130,7 +130,7 @@ private:
     // u^(-1/k) - 1.
     static Real power_minus_one(const Real& u, const Real& k)
     {
-        return expm1(limited(-log(number_of(u)) / k));
+        return detail::expm1(limited(-log(number_of(u)) / k));
     }
     // Slopes above 1e11 are all the same: their normals lie in the surface.
     static Real limited(const Real& exponent) { return min(exponent, Real(55)); }

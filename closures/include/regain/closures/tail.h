@@ -123,7 +123,7 @@ Real std_gamma(const Real& coordinate)
     const Real position =
         constant<Real>(std_lowest_position) +
         constant<Real>(std_highest_position - std_lowest_position) * saturate(coordinate);
-    const Real e = exp(position);
+    const Real e = detail::exp(position);
     return sanitised(constant<Real>(1.5) + Real(4) * e / (Real(1) - e), std_min_gamma,
                      std_max_gamma, 2);
 }

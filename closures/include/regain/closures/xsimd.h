@@ -30,7 +30,13 @@ struct NumberTraits<xsimd::batch<T, Arch>>
     static bool all(const Mask& mask) { return xsimd::all(mask); }
     static bool any(const Mask& mask) { return xsimd::any(mask); }
     static Mask both(const Mask& a, const Mask& b) { return a & b; }
-    static Mask quiet_less(const Batch& a, const Batch& b) { return a < b; }
+    static Mask quiet_less(const Batch& a, const Batch& b)
+    {
+        // Of SSE's comparisons only those for equality take a NaN without an exception.
+        const Mask numbers = (a == a) & (b == b);
+        const Batch zero(T(0));
+        return numbers & (xsimd::select(numbers, a, zero) < xsimd::select(numbers, b, zero));
+    }
 
     static Batch min(const Batch& a, const Batch& b) { return xsimd::min(a, b); }
     static Batch max(const Batch& a, const Batch& b) { return xsimd::max(a, b); }
@@ -38,13 +44,27 @@ struct NumberTraits<xsimd::batch<T, Arch>>
     static Batch sqrt(const Batch& x) { return xsimd::sqrt(x); }
     static Batch sin(const Batch& x) { return xsimd::sin(x); }
     static Batch cos(const Batch& x) { return xsimd::cos(x); }
-    static Batch pow(const Batch& x, const Batch& y) { return xsimd::pow(x, y); }
-    static Batch exp(const Batch& x) { return xsimd::exp(x); }
+    /// x not negative.
+    static Batch pow(const Batch& x, const Batch& y)
+    {
+        const Batch zero(T(0)), one(T(1));
+        const Mask positive = x > zero;
+        const Batch power = exp(y * xsimd::log(xsimd::select(positive, x, one)));
+        return xsimd::select(positive, power, xsimd::select(y > zero, zero, one));
+    }
+    static Batch exp(const Batch& x)
+    {
+        // Where the result underflows xsimd may make an int of what is too large for one, an
+        // invalid operation, and then drop it.
+        const Batch lowest(T(-87));
+        return xsimd::select(x < lowest, Batch(T(0)), xsimd::exp(xsimd::max(x, lowest)));
+    }
     static Batch log(const Batch& x) { return xsimd::log(x); }
     static Batch expm1(const Batch& x) { return xsimd::expm1(x); }
     static Batch log1p(const Batch& x) { return xsimd::log1p(x); }
     static Batch erf(const Batch& x) { return xsimd::erf(x); }
-    static Batch erfc(const Batch& x) { return xsimd::erfc(x); }
+    /// From 9 on it is 4e-37: see exp.
+    static Batch erfc(const Batch& x) { return xsimd::erfc(xsimd::min(x, Batch(T(9)))); }
 
     static Bits bits(const Batch& x) { return xsimd::bitwise_cast<Bits>(x); }
     static Batch unit(const Bits& a, const Bits&)

@@ -41,6 +41,7 @@ struct Reads
     bool gamma = false;
     double lowest_gamma = 0, highest_gamma = 0;
     bool eta = false;
+    bool one_medium = false;  ///< on both sides, as of a sheet: eta is of what lies between
     bool schlick = false, conductor = false;
     bool single = false, twice = false;  ///< precisions it computes in; at least one
 };

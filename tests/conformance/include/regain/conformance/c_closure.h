@@ -150,14 +150,15 @@ typedef struct regain_subject_v1
     int32_t reserved; /**< 0 */
 } regain_subject_v1;
 
-/** What the shared object exports: its subjects by index from 0, null past the last. Declared here
- *  so that it is C's in C++, and seen from outside where symbols are hidden. */
+/** Seen from outside where symbols are hidden. */
 #if defined(__GNUC__)
-__attribute__((visibility("default")))
+#define REGAIN_CONFORMANCE_EXPORT __attribute__((visibility("default")))
+#else
+#define REGAIN_CONFORMANCE_EXPORT
 #endif
-const regain_subject_v1*
-regain_conformance_subject(int index);
 
+/** What the shared object exports: its subjects by index from 0, null past the last. */
+REGAIN_CONFORMANCE_EXPORT const regain_subject_v1* regain_conformance_subject(int index);
 typedef const regain_subject_v1* (*regain_conformance_subject_function)(int index);
 #define REGAIN_CONFORMANCE_SUBJECT "regain_conformance_subject"
 

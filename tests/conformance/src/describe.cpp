@@ -30,11 +30,12 @@ std::string in_short(const Failure& f)
 
 std::string counts(const Report& report)
 {
+    const std::size_t passed = report.count(Verdict::Kind::passed);
     std::size_t subjects = 0;
     for_each_subject(report, [&](Verdicts, Verdicts) { ++subjects; });
     return std::to_string(subjects) + (subjects == 1 ? " subject" : " subjects") + ", tier " +
            report.tier + (report.interrupted ? ", interrupted" : "") + ": " +
-           std::to_string(report.count(Verdict::Kind::passed)) + " checks passed, " +
+           std::to_string(passed) + (passed == 1 ? " check" : " checks") + " passed, " +
            std::to_string(report.count(Verdict::Kind::failed)) + " failed, " +
            std::to_string(report.count(Verdict::Kind::not_applicable)) + " not applicable";
 }

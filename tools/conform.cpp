@@ -212,7 +212,8 @@ void add_conform(CLI::App& app, int& exit_code)
         ->type_name("commit|thorough")
         ->check(CLI::IsMember({"commit", "thorough"}));
     command->add_option("--seed-salt", a->options.salt, "other random numbers for everything")
-        ->type_name("N");
+        ->type_name("N")
+        ->check(CLI::NonNegativeNumber);  // or -1 would be a large number
     command->add_option("--repeat", a->repetitions, "run N times, and count false alarms")
         ->type_name("N")
         ->check(CLI::Range(1, 1000000));

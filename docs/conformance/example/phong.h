@@ -96,6 +96,9 @@ static bool phong_sample(const phong* p, const double wo[3], const double u[3], 
         wi[1] = a * d + b * (1 + r[1] * r[1] * t) + c * r[1];
         wi[2] = -a * r[0] - b * r[1] + c * r[2];
     }
+    /* wo may be a little off unit length; what is returned is not. */
+    const double length = sqrt(wi[0] * wi[0] + wi[1] * wi[1] + wi[2] * wi[2]);
+    for (int k = 0; k < 3; ++k) wi[k] /= length;
     return phong_usable(wi) && phong_pdf(p, wo, wi) > 0;
 }
 

@@ -80,7 +80,7 @@ TEST(KitSphereCells, the_cosine_integrates_to_pi)
 
 // Wider and narrower than a cell, across a pole, a horizon and the seam of azimuths. About the
 // pole, where cells are long, no narrower than a surface of alpha 1e-3 looked at straight on, and
-// to the kit's own tolerance.
+// to the tolerance of a commit; elsewhere to that of a thorough run.
 TEST(KitSphereCells, lobes_integrate_to_one_and_errors_are_not_understated)
 {
     struct Case
@@ -91,8 +91,8 @@ TEST(KitSphereCells, lobes_integrate_to_one_and_errors_are_not_understated)
     const Direction wo = direction(0.3, -0.4, 0.6);
     for (const Case& c :
          {Case{direction(0, 0, 1), 1e6, 1e-4}, Case{direction(0, 0, -1), 1e6, 1e-4},
-          Case{direction(1, 0, 0), 1e10, 1e-6}, Case{direction(0.3, -0.4, 0.1), 1e10, 1e-6},
-          Case{direction(-1, 2, -3), 1e10, 1e-6}, Case{direction(-0.3, 0.4, 0.6), 1e10, 1e-6}})
+          Case{direction(1, 0, 0), 1e10, 1e-5}, Case{direction(0.3, -0.4, 0.1), 1e10, 1e-5},
+          Case{direction(-1, 2, -3), 1e10, 1e-5}, Case{direction(-0.3, 0.4, 0.6), 1e10, 1e-5}})
         for (double concentration = 1; concentration <= c.narrowest; concentration *= 100)
         {
             const Lobe lobe{c.axis, concentration};

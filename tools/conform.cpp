@@ -2,13 +2,17 @@
 // Copyright Contributors to the Regain project
 
 #include "commands.h"
+#include "conform_repeat.h"
+#include "conform_report.h"
 #include "conform_subjects.h"
 #include "errors.h"
 #include "preview/interrupt.h"
 #include "preview/progress.h"
 
 #include <regain/conformance/run.h>
+#include <regain/conformance/shared_object.h>
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include <iostream>
@@ -17,52 +21,218 @@
 namespace regain::tools {
 namespace {
 
+constexpr const char* help_footer = R"help(
+A subject is a closure with its parameters still open; checks hold it to what it promises, at
+settings all over the range of what it reads. Without SHARED_OBJECT the subjects are the library's
+own; with some, theirs alone. docs/conformance-kit.md says what a shared object exports, what each
+check states, and how to read a failure.
+
+Every random number comes from the name of the case: a run always says the same, on any number of
+threads, and the command below a failure shows that failure again. Where chance has a part, all tests
+of a run together raise a false alarm once in 1000 runs. --repeat tests just that: it runs the checks
+decided by chance N times with other random numbers, and fails where alarms are too many for chance.
+
+After Ctrl-C what was found so far is reported, marked as interrupted (exit code 130).
+Exit codes: 0 all passed, 1 a check failed, 2 bad input.
+
+examples:
+  regain conform                                    everything, tier commit
+  regain conform --subject conductor.ggx            the subjects with this in their names
+  regain conform --subject dielectric.ggx.turquin --check C4 C5
+  regain conform ./my_closure.so                    a closure from elsewhere
+  regain conform ./my_closure.so --junit conform.xml --histograms histograms
+  regain conform --tier thorough --json=report.json --markdown report.md
+  regain conform --json | jq .failed
+  regain conform --subject sheen --repeat 1000      false alarms of the kit itself
+  regain conform --list                             the subjects
+  regain conform --list-checks                      the checks, and what each states
+)help";
+
+// What CLI11 makes of a flag without a value.
+constexpr const char* json_to_output = "true";
+
 struct Arguments
 {
+    std::vector<std::string> objects;
     conformance::Options options;
+    ReportFiles files;
     std::string tier = "commit";
-    bool list = false;
+    std::size_t repetitions = 0;
+    bool list = false, list_checks = false;
+
+    bool json_on_output() const { return files.json == json_to_output; }
 };
+
+// What the arguments speak of: those of shared objects, or the library's own.
+class Subjects
+{
+public:
+    explicit Subjects(const std::vector<std::string>& objects)
+    {
+        for (const std::string& object : objects)
+        {
+            const std::string end = object.size() > 5 ? object.substr(object.size() - 5) : "";
+            if (end == ".json")
+                throw BadInput(fmt::format(
+                    "'{0}' is taken for a shared object; a report is written by --json={0}",
+                    object));
+            for (auto& subject : conformance::load_shared_object(object))
+                _owned.push_back(std::move(subject));
+        }
+        for (const auto& subject : _owned) _all.push_back(subject.get());
+        if (objects.empty()) _all = built_in_subjects();
+    }
+    const std::vector<const conformance::Subject*>& all() const { return _all; }
+
+private:
+    std::vector<std::unique_ptr<conformance::Subject>> _owned;
+    std::vector<const conformance::Subject*> _all;
+};
+
+// As a shell takes it.
+std::string quoted(const std::string& text)
+{
+    const auto plain = [](unsigned char c) {
+        return std::isalnum(c) ||
+               std::string("-_./+,:@%").find(static_cast<char>(c)) != std::string::npos;
+    };
+    if (!text.empty() && std::all_of(text.begin(), text.end(), plain)) return text;
+    std::string out = "'";
+    for (char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return out + "'";
+}
+
+// Shows the fraction done until it goes out of scope; false asks to stop.
+class Watch
+{
+public:
+    Watch() : _progress("conform", steps, Progress::style(false)) {}
+
+    bool operator()(double done)
+    {
+        const auto now = static_cast<std::uint64_t>(done * static_cast<double>(steps));
+        _progress.advance(now - std::min(_shown, now));
+        _shown = std::max(_shown, now);
+        return !_guard.flag();
+    }
+
+private:
+    static constexpr std::uint64_t steps = 1000;
+    InterruptGuard _guard;
+    Progress _progress;
+    std::uint64_t _shown = 0;
+};
+
+int exit_code_of(bool interrupted, bool passed)
+{
+    if (interrupted) return kInterrupted;
+    return passed ? kDone : kCheckFailed;
+}
+
+int run_repeatedly(const Arguments& a, const Subjects& subjects)
+{
+    const ReportFiles& f = a.files;
+    if (!f.junit.empty() || !f.markdown.empty() || !f.histograms.empty() ||
+        (!f.json.empty() && !a.json_on_output()))
+        throw BadInput(
+            "--repeat writes no files: leave out --junit, --json=FILE, --markdown and "
+            "--histograms");
+    if (a.options.salt) throw BadInput("--repeat chooses the salts 1 to N: leave out --seed-salt");
+    Repetition r;
+    {
+        Watch watch;
+        r = repeat(subjects.all(), a.options, a.repetitions, std::ref(watch));
+    }
+    fmt::print("{}", a.json_on_output() ? json(r) + "\n" : text(r));
+    return exit_code_of(r.interrupted, r.passed());
+}
+
+int run_once(const Arguments& a, const Subjects& subjects)
+{
+    ReportFiles files = a.files;
+    if (a.json_on_output()) files.json.clear();
+    require_writable(files);
+    conformance::Options options = a.options;
+    conformance::Report report;
+    {
+        Watch watch;
+        options.progress = std::ref(watch);
+        report = conformance::run(subjects.all(), options);
+    }
+    const std::vector<std::string> written = write_reports(files, report);
+    if (a.json_on_output())
+        write_json(std::cout, report);
+    else
+        write_summary(std::cout, report);
+    std::cout.flush();
+    if (!std::cout) throw BadInput("the report could not be written to standard output");
+    for (const std::string& file : written) fmt::print(stderr, "regain: wrote {}\n", file);
+    return exit_code_of(report.interrupted, report.passed());
+}
 
 int run_conform(Arguments& a)
 {
-    a.options.tier = a.tier == "commit" ? conformance::Tier::commit : conformance::Tier::thorough;
-    if (a.list)
+    if (a.list_checks)
     {
-        for (const auto* s : built_in_subjects()) std::cout << s->name() << "\n";
+        for (const conformance::CheckTitle& c : conformance::all_checks())
+            fmt::print("{:<4} {}{}\n", c.id, c.title, c.by_chance ? " (decided by chance)" : "");
         return kDone;
     }
-    const InterruptGuard guard;
-    constexpr std::uint64_t steps = 1000;
-    conformance::Report report;
+    const Subjects subjects(a.objects);
+    if (a.list)
     {
-        Progress progress("conform", steps, Progress::style(false));
-        std::uint64_t shown = 0;
-        a.options.progress = [&](double done) {
-            const auto now = static_cast<std::uint64_t>(done * static_cast<double>(steps));
-            progress.advance(now - std::min(shown, now));
-            shown = now;
-            return !guard.flag();
-        };
-        report = conformance::run(built_in_subjects(), a.options);
+        for (const auto* s : subjects.all()) fmt::print("{}\n", s->name());
+        return kDone;
     }
-    write_summary(std::cout, report);
-    if (report.interrupted) return kInterrupted;
-    return report.passed() ? kDone : kCheckFailed;
+    a.options.tier = a.tier == "commit" ? conformance::Tier::commit : conformance::Tier::thorough;
+    for (const std::string& object : a.objects) a.options.command += " " + quoted(object);
+    return a.repetitions > 0 ? run_repeatedly(a, subjects) : run_once(a, subjects);
 }
 
 }  // namespace
 
 void add_conform(CLI::App& app, int& exit_code)
 {
-    CLI::App* command = app.add_subcommand("conform", "hold closures to what they promise");
+    CLI::App* command = app.add_subcommand(
+        "conform", "hold closures to what they promise: the library's, or a shared object's");
+    command->footer(help_footer);
     auto a = std::make_shared<Arguments>();
-    command->add_option("--subject", a->options.subject, "only subjects with this in their name");
-    command->add_option("--check", a->options.checks, "only these checks");
-    command->add_option("--setting", a->options.setting, "only this setting");
-    command->add_option("--tier", a->tier, "commit or thorough")
+    command
+        ->add_option("SHARED_OBJECT", a->objects,
+                     "closures from elsewhere (default: the library's)")
+        ->type_name("");
+    command
+        ->add_option("--subject", a->options.subject,
+                     "only this subject, or those with it in their names")
+        ->type_name("TEXT");
+    command->add_option("--check", a->options.checks, "only these checks")->type_name("ID ...");
+    command->add_option("--setting", a->options.setting, "only this setting, as a failure names it")
+        ->type_name("TEXT");
+    command->add_option("--tier", a->tier, "commit (default): minutes; thorough: an hour")
+        ->type_name("commit|thorough")
         ->check(CLI::IsMember({"commit", "thorough"}));
+    command->add_option("--seed-salt", a->options.salt, "other random numbers for everything")
+        ->type_name("N")
+        ->check(CLI::NonNegativeNumber);  // or -1 would be a large number
+    command->add_option("--repeat", a->repetitions, "run N times, and count false alarms")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1000000));
+    command->add_option("--threads", a->options.threads, "default: one a processor")
+        ->type_name("N")
+        ->check(CLI::Range(1, 4096));
+    command->add_option("--junit", a->files.junit, "the report as JUnit XML")->type_name("FILE");
+    // A flag with a value, for an option would take the shared object that comes next to be one.
+    command->add_flag("--json", a->files.json,
+                      "the report as JSON, on standard output or in --json=FILE");
+    command->add_option("--markdown", a->files.markdown, "the report as a table")
+        ->type_name("FILE");
+    command
+        ->add_option(
+            "--histograms", a->files.histograms,
+            "EXR and PNG of samples that do not follow the pdf: found, expected, difference")
+        ->type_name("FOLDER");
     command->add_flag("--list", a->list, "list the subjects");
+    command->add_flag("--list-checks", a->list_checks, "list the checks");
     command->callback(
         [a, &exit_code] { exit_code = run_reporting([&] { return run_conform(*a); }); });
 }

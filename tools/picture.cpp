@@ -21,16 +21,22 @@ namespace {
 
 constexpr const char* software = "Regain " REGAIN_VERSION_STRING;
 
+[[noreturn]] void fail(const fs::path& file, const std::string& why)
+{
+    throw std::runtime_error("cannot write '" + file.string() + "': " + why);
+}
+
+void check_size(const fs::path& file, int width, int height, std::size_t pixels)
+{
+    if (width < 1 || height < 1) fail(file, "the picture is empty");
+    if (pixels != std::size_t(width) * std::size_t(height))
+        fail(file, "the picture is " + std::to_string(width) + " x " + std::to_string(height) +
+                       " but has " + std::to_string(pixels) + " pixels");
+}
+
 void check(const fs::path& file, const Picture& picture)
 {
-    const auto fail = [&](const std::string& why) {
-        throw std::runtime_error("cannot write '" + file.string() + "': " + why);
-    };
-    if (picture.width < 1 || picture.height < 1) fail("the picture is empty");
-    if (picture.pixels.size() != std::size_t(picture.width) * std::size_t(picture.height))
-        fail("the picture is " + std::to_string(picture.width) + " x " +
-             std::to_string(picture.height) + " but has " + std::to_string(picture.pixels.size()) +
-             " pixels");
+    check_size(file, picture.width, picture.height, picture.pixels.size());
 
     // Never painted over: a pixel that is not a number is a defect in what made it.
     const auto bad =
@@ -38,23 +44,20 @@ void check(const fs::path& file, const Picture& picture)
             return !std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z);
         });
     if (bad > 0)
-        fail(std::to_string(bad) + " of " + std::to_string(picture.pixels.size()) +
-             " pixels are not finite");
+        fail(file, std::to_string(bad) + " of " + std::to_string(picture.pixels.size()) +
+                       " pixels are not finite");
 }
 
 void write(const fs::path& file, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
            const void* values)
 {
     luts::replace_file(file, [&](const fs::path& temporary) {
-        const auto fail = [&](const std::string& why) {
-            throw std::runtime_error("cannot write '" + file.string() + "': " + why);
-        };
         const auto output = OIIO::ImageOutput::create(temporary.string());
-        if (!output) fail(OIIO::geterror());
-        if (!output->open(temporary.string(), spec)) fail(output->geterror());
+        if (!output) fail(file, OIIO::geterror());
+        if (!output->open(temporary.string(), spec)) fail(file, output->geterror());
         const bool written = output->write_image(type, values);
         // A full disk shows only now.
-        if (!output->close() || !written) fail(output->geterror());
+        if (!output->close() || !written) fail(file, output->geterror());
     });
 }
 
@@ -64,9 +67,7 @@ void need_extension(const fs::path& file, const std::string& extension)
     std::string given = file.extension().string();
     std::transform(given.begin(), given.end(), given.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (given != extension)
-        throw std::runtime_error("cannot write '" + file.string() + "': its name must end in " +
-                                 extension);
+    if (given != extension) fail(file, "its name must end in " + extension);
 }
 
 }  // namespace
@@ -114,18 +115,25 @@ void write_png(const fs::path& file, const Picture& picture, const shaders::Colo
     to_display.apply(pixels);
 
     // Rounded here, not by the writer, whose rounding may change with its version.
-    std::vector<std::uint8_t> bytes;
-    bytes.reserve(3 * pixels.size());
+    DisplayPicture bytes{picture.width, picture.height, {}};
+    bytes.bytes.reserve(3 * pixels.size());
     for (const Imath::C3f& p : pixels)
         for (int c = 0; c < 3; ++c)
         {
             const float v = p[c] > 0 ? std::min(p[c], 1.0f) : 0.0f;
-            bytes.push_back(static_cast<std::uint8_t>(v * 255.0f + 0.5f));
+            bytes.bytes.push_back(static_cast<std::uint8_t>(v * 255.0f + 0.5f));
         }
 
+    write_png(file, bytes);
+}
+
+void write_png(const fs::path& file, const DisplayPicture& picture)
+{
+    need_extension(file, ".png");
+    check_size(file, picture.width, picture.height, picture.bytes.size() / 3);
     OIIO::ImageSpec spec(picture.width, picture.height, 3, OIIO::TypeDesc::UINT8);
     spec.attribute("Software", software);
-    write(file, spec, OIIO::TypeDesc::UINT8, bytes.data());
+    write(file, spec, OIIO::TypeDesc::UINT8, picture.bytes.data());
 }
 
 }  // namespace regain::tools

@@ -11,6 +11,7 @@
 
 #include <Imath/ImathColor.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -45,5 +46,16 @@ void write_exr(const std::filesystem::path& file, const Picture& picture, const 
 void write_png(const std::filesystem::path& file, const Picture& picture,
                const shaders::ColorConfig& config, const std::string& display,
                const std::string& view);
+
+/// Row-major, top row first, three bytes a pixel as a display takes them.
+struct DisplayPicture
+{
+    int width = 0, height = 0;
+    std::vector<std::uint8_t> bytes;
+};
+
+/// Those bytes. Throws std::runtime_error if the size does not fit them, if the name does not end
+/// in .png, or if the file cannot be written.
+void write_png(const std::filesystem::path& file, const DisplayPicture& picture);
 
 }  // namespace regain::tools

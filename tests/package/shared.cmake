@@ -10,10 +10,9 @@ include(${CMAKE_CURRENT_LIST_DIR}/common.cmake)
 set(CONFIG Debug)
 configure_and_build(${SOURCE_DIR} ${SCRATCH}/build -DBUILD_SHARED_LIBS=ON
   -DREGAIN_BUILD_LUTS=${LUTS} -DREGAIN_BUILD_SHADERS=${SHADERS} -DREGAIN_BUILD_ADAPTERS=${ADAPTERS}
-  -DREGAIN_BUILD_TOOLS=OFF -DREGAIN_BUILD_TESTS=OFF)
+  -DREGAIN_BUILD_CONFORMANCE=${CONFORMANCE} -DREGAIN_BUILD_TOOLS=OFF -DREGAIN_BUILD_TESTS=OFF)
 install(${SCRATCH}/build ${SCRATCH}/prefix)
 separate_arguments(parts UNIX_COMMAND "${PARTS}")
-list(REMOVE_ITEM parts conformance)
 check_parts(${SCRATCH}/prefix ${parts})
 
 find_program(NM nm)

@@ -205,7 +205,7 @@ std::shared_ptr<const Histogram> histogram_of(Bench& bench)
     for (std::size_t i = 0; i < n; ++i)
     {
         const Sample<double> s = closure.sample(random.cube());
-        if (!s.valid || s.delta) continue;
+        if (!s.valid || s.delta || !std::isfinite(s.wi.x + s.wi.y + s.wi.z)) continue;
         double turn = (std::atan2(s.wi.y, s.wi.x) - azimuth) / (2 * pi);
         turn -= std::floor(turn);
         const int x = std::min(width - 1, static_cast<int>(turn * width));

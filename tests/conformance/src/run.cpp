@@ -4,6 +4,7 @@
 #include <regain/conformance/run.h>
 
 #include "check.h"
+#include "names.h"
 
 #include <algorithm>
 #include <chrono>
@@ -58,14 +59,39 @@ bool applies_to(const Check& check, const Setting& setting, bool first)
     return true;
 }
 
+// A whole name means that subject, though others may have it in theirs.
+bool is_wanted(const Subject& subject, const std::string& text, bool is_whole_name)
+{
+    const std::string name = subject.name();
+    return is_whole_name ? name == text : name.find(text) != std::string::npos;
+}
+
+void require_usable_names(const std::vector<const Subject*>& subjects)
+{
+    std::vector<std::string> names;
+    for (const Subject* s : subjects)
+    {
+        names.push_back(s->name());
+        if (const std::string why = why_unusable(names.back()); !why.empty())
+            throw std::invalid_argument(why);
+    }
+    std::sort(names.begin(), names.end());
+    const auto twice = std::adjacent_find(names.begin(), names.end());
+    if (twice != names.end())
+        throw std::invalid_argument("two subjects are called '" + *twice + "'");
+}
+
 Plan plan(const std::vector<const Subject*>& subjects, const Options& options)
 {
     Plan p;
     std::map<std::string, std::size_t> family_size;
     for (const Subject* subject : subjects) ++family_size[subject->family()];
+    const bool is_whole_name = std::any_of(subjects.begin(), subjects.end(), [&](const Subject* s) {
+        return s->name() == options.subject;
+    });
     for (const Subject* subject : subjects)
     {
-        if (subject->name().find(options.subject) == std::string::npos) continue;
+        if (!is_wanted(*subject, options.subject, is_whole_name)) continue;
         const Traits traits = subject->make({})->traits();
         std::vector<std::pair<const Check*, std::size_t>> wanted;
         for (const Check& check : checks())
@@ -122,7 +148,8 @@ public:
             if (v.kind == Verdict::Kind::passed && v.settings == 0)
             {
                 v.kind = Verdict::Kind::not_applicable;
-                v.reason = "no setting was looked at that it could be told of";
+                v.reason = r.interrupted ? "the run was interrupted before"
+                                         : "no setting was looked at that it could be told of";
             }
         r.seconds = seconds_since(start);
         return r;
@@ -227,12 +254,13 @@ private:
         }
         if (!failed) return;
         v.kind = Verdict::Kind::failed;
-        v.failures.push_back({name, o.measured, o.bound, check.by_chance ? o.probability : 0,
-                              o.detail,
-                              _options.command + " --subject " + v.subject + " --check " +
-                                  check.id + " --setting '" + setting.name + "'" +
-                                  (_options.tier == Tier::thorough ? " --tier thorough" : ""),
-                              o.histogram});
+        v.failures.push_back(
+            {name, o.measured, o.bound, check.by_chance ? o.probability : 0, o.detail,
+             _options.command + " --subject " + v.subject + " --check " + check.id +
+                 " --setting '" + setting.name + "'" +
+                 (_options.tier == Tier::thorough ? " --tier thorough" : "") +
+                 (_options.salt ? " --seed-salt " + std::to_string(_options.salt) : ""),
+             o.histogram});
         std::sort(v.failures.begin(), v.failures.end(),
                   [](const Failure& a, const Failure& b) { return a.setting < b.setting; });
     }
@@ -265,6 +293,7 @@ Report run(const std::vector<const Subject*>& subjects, const Options& options)
             for (const Check& c : checks()) known += std::string(known.empty() ? "" : ", ") + c.id;
             throw std::invalid_argument("no check is called '" + id + "'; there are " + known);
         }
+    require_usable_names(subjects);
     Plan p = plan(subjects, options);
     if (p.jobs.empty())
         throw std::invalid_argument(

@@ -84,6 +84,8 @@ Charts::Charts(const Direction& wo) : _azimuth(std::atan2(wo.y, wo.x)) {}
 
 ChartPoint Charts::place_of(const Direction& w) const
 {
+    // What is no direction is counted somewhere; other checks reject it.
+    if (!std::isfinite(w.x) || !std::isfinite(w.y) || !std::isfinite(w.z)) return {};
     // 1 - |z| without cancellation at the pole.
     const double sine2 = w.x * w.x + w.y * w.y;
     ChartPoint p;

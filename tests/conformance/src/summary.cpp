@@ -1,62 +1,57 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright Contributors to the Regain project
 
-#include <regain/conformance/report.h>
+#include "describe.h"
 
-#include <cstdio>
+#include <algorithm>
 #include <ostream>
 
 REGAIN_NAMESPACE_BEGIN
 namespace conformance {
 namespace {
 
-std::string short_number(double x)
+void write_failures(std::ostream& out, const Verdict& v)
 {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", x);
-    return text;
+    out << "\nFAILED " << v.subject << ", " << v.check << ": " << v.title << "\n  at "
+        << v.failures.size() << " of " << v.settings << (v.settings == 1 ? " setting" : " settings")
+        << "\n";
+    for (const Failure& f : v.failures)
+    {
+        out << "\n  " << (f.setting.empty() ? "all parameters" : f.setting) << "\n    "
+            << in_short(f) << "\n";
+        if (!f.detail.empty()) out << "    " << f.detail << "\n";
+        out << "    " << f.reproduce << "\n";
+    }
 }
 
 }  // namespace
 
 void write_summary(std::ostream& out, const Report& report)
 {
-    std::string subject;
-    for (const Verdict& v : report.verdicts)
-    {
-        if (v.subject != subject) out << (subject.empty() ? "" : "\n") << v.subject << ":";
-        subject = v.subject;
-        const bool failed = v.kind == Verdict::Kind::failed;
-        if (v.kind == Verdict::Kind::not_applicable) continue;
-        out << " " << v.check << (failed ? " FAILED" : "") << " " << short_number(v.measured) << "/"
-            << short_number(v.bound);
-    }
-    out << "\n";
-    for (const Verdict& v : report.verdicts)
-    {
-        if (v.kind != Verdict::Kind::failed) continue;
-        out << "\nFAILED " << v.subject << ", " << v.check << ": " << v.title << "; "
-            << v.failures.size() << " of " << v.settings << " settings\n";
-        std::size_t shown = 0;
-        for (const Failure& f : v.failures)
+    out << counts(report) << "\n\n";
+    std::size_t width = 0;
+    for (const Verdict& v : report.verdicts) width = std::max(width, v.subject.size());
+    for_each_subject(report, [&](Verdicts first, Verdicts last) {
+        std::string passed, failed;
+        for (auto v = first; v != last; ++v)
         {
-            if (++shown > 5)
-            {
-                out << "  and " << v.failures.size() - 5 << " more\n";
-                break;
-            }
-            out << "  " << f.setting << ": " << short_number(f.measured) << ", accepted up to "
-                << short_number(f.bound);
-            if (f.probability > 0) out << ", by chance once in " << short_number(1 / f.probability);
-            out << "\n    " << f.detail << "\n    " << f.reproduce << "\n";
+            if (v->kind == Verdict::Kind::passed) passed += " " + v->check;
+            if (v->kind == Verdict::Kind::failed) failed += " " + v->check;
         }
-    }
+        out << first->subject << std::string(width - first->subject.size() + 2, ' ');
+        if (!failed.empty()) out << "FAILED" << failed << (passed.empty() ? "" : "; ");
+        if (!passed.empty()) out << "passed" << passed;
+        if (failed.empty() && passed.empty()) out << "nothing applies";
+        out << "\n";
+    });
+    for (const Verdict& v : report.verdicts)
+        if (v.kind == Verdict::Kind::failed) write_failures(out, v);
+
+    // Once more, where whoever reads failures ends.
+    if (report.count(Verdict::Kind::failed) > 0) out << "\n" << counts(report) << "\n";
     out << "\n"
-        << report.count(Verdict::Kind::passed) << " passed, " << report.count(Verdict::Kind::failed)
-        << " failed, " << report.count(Verdict::Kind::not_applicable) << " not applicable; "
-        << report.statistical_tests << " tests by chance at " << short_number(report.level)
-        << " each; " << short_number(report.seconds) << " s"
-        << (report.interrupted ? "; interrupted" : "") << "\n";
+        << report.statistical_tests << " tests by chance, at " << short_number(report.level)
+        << " each; " << short_number(report.seconds) << " s\n";
 }
 
 }  // namespace conformance

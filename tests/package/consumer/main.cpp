@@ -19,6 +19,12 @@
 #include <regain/clarisse/host.h>
 #endif
 
+#ifdef WITH_conformance
+#include <regain/closures/diffuse.h>
+#include <regain/conformance/adapt.h>
+#include <regain/conformance/run.h>
+#endif
+
 #include <cmath>
 #include <iostream>
 
@@ -55,6 +61,14 @@ int main()
 #endif
 #ifdef WITH_clarisse
     good = good && clarisse::lobe_label().category() == clarisse::diffuse_reflection;
+#endif
+
+#ifdef WITH_conformance
+    const auto tested = conformance::adapt(Diffuse<float>(Color3<float>(0.5f)));
+    tested->prepare(conformance::Direction(0, 0, 1));
+    std::cout << conformance::all_checks().size() << " checks\n";
+    good = good && tested->pdf(conformance::Direction(0, 0, 1)) > 0.3 &&
+           !conformance::all_checks().empty();
 #endif
 
     return good ? 0 : 1;

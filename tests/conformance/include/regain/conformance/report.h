@@ -64,18 +64,27 @@ struct Report
     double seconds = 0;
     bool interrupted = false;
 
-    std::size_t count(Verdict::Kind kind) const;
+    REGAIN_CONFORMANCE_API std::size_t count(Verdict::Kind kind) const;
     bool passed() const { return !interrupted && count(Verdict::Kind::failed) == 0; }
 };
 
-/// For people: a line for each subject, then every failure with all that is known about it.
+/// For people: how many passed, a line for each subject that did, then every failure with all that
+/// is known about it.
 REGAIN_CONFORMANCE_API void write_summary(std::ostream& out, const Report& report);
-/// A table of subjects and checks, in Markdown.
+/// A table of subjects and checks, in Markdown. The same results give the same text: it holds no
+/// times.
 REGAIN_CONFORMANCE_API void write_markdown(std::ostream& out, const Report& report);
+/// One object, with all that the report holds but the histograms. A number that is not finite is
+/// null.
+REGAIN_CONFORMANCE_API void write_json(std::ostream& out, const Report& report);
+
 /// These write the file whole or not at all, and throw std::runtime_error that names it.
-REGAIN_CONFORMANCE_API void write_junit(const std::filesystem::path& file, const Report& report);
+REGAIN_CONFORMANCE_API void write_markdown(const std::filesystem::path& file, const Report& report);
 REGAIN_CONFORMANCE_API void write_json(const std::filesystem::path& file, const Report& report);
-/// OpenEXR, channels found, expected and difference.
+/// JUnit's XML: a suite for each subject, a case for each check. An interrupted run has an error.
+REGAIN_CONFORMANCE_API void write_junit(const std::filesystem::path& file, const Report& report);
+/// OpenEXR, 32-bit channels found, expected and difference, which is found - expected. Throws
+/// std::invalid_argument where the histogram is empty or its size is not that of its counts.
 REGAIN_CONFORMANCE_API void write_histogram(const std::filesystem::path& file,
                                             const Histogram& histogram);
 

@@ -30,8 +30,8 @@ enum class Tier { commit, thorough };
 struct Options
 {
     Tier tier = Tier::commit;
-    /// Part of a subject's name, or empty for all; ids of checks, "C4", or empty for all; a whole
-    /// setting, as failures name it, or empty for all.
+    /// A subject's name, or part of those of several, or empty for all; ids of checks, "C4", or
+    /// empty for all; a whole setting, as failures name it, or empty for all.
     std::string subject;
     std::vector<std::string> checks;
     std::string setting;
@@ -53,8 +53,8 @@ struct CheckTitle
 };
 REGAIN_CONFORMANCE_API std::vector<CheckTitle> all_checks();
 
-/// Throws std::invalid_argument where the options name a check that is none, or nothing is left to
-/// run.
+/// Throws std::invalid_argument where the options name a check that is none, nothing is left to
+/// run, or a subject's name is unusable or another's.
 REGAIN_CONFORMANCE_API Report run(const std::vector<const Subject*>& subjects,
                                   const Options& options = {});
 

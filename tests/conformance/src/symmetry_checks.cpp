@@ -164,6 +164,7 @@ std::optional<Outcome> symmetries_hold(Bench& bench)
     Parameters swapped = p;
     std::swap(swapped.alpha_x, swapped.alpha_y);
     const auto exchanged = bench.subject().make(swapped);
+    const bool has_no_other_axes = bench.subject().reads().two_alphas || !traits.anisotropic;
 
     Random random = bench.random("C12");
     const int n = bench.tier() == Tier::commit ? 500 : 10000;
@@ -197,7 +198,9 @@ std::optional<Outcome> symmetries_hold(Bench& bench)
             compare(*same, wo, wi, turned(wo, phi), turned(wi, phi), "turned together");
         }
         compare(*same, wo, wi, {-wo.x, wo.y, wo.z}, {-wi.x, wi.y, wi.z}, "mirrored");
-        compare(*exchanged, wo, wi, {wo.y, wo.x, wo.z}, {wi.y, wi.x, wi.z}, "axes exchanged");
+        // A grain that the closure has of its own stays where it is.
+        if (has_no_other_axes)
+            compare(*exchanged, wo, wi, {wo.y, wo.x, wo.z}, {wi.y, wi.x, wi.z}, "axes exchanged");
     }
     closure.prepare(bench.setting().wo);
     o.probability = o.measured <= o.bound ? 1 : 0;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 REGAIN_NAMESPACE_BEGIN
 namespace conformance {
@@ -74,7 +75,7 @@ Direction Charts::direction_of(const ChartPoint& p) const
 }
 
 SphereCells::SphereCells(const Direction& wo, const std::vector<Direction>& lobe, double share)
-    : _charts(wo)
+    : _charts(wo), _lobe_size(static_cast<double>(lobe.size()))
 {
     std::vector<std::vector<ChartPoint>> points(8);
     for (const Direction& w : lobe)
@@ -95,6 +96,7 @@ void SphereCells::grow(std::size_t node, std::vector<ChartPoint> points, std::si
     {
         _nodes[node].bin = static_cast<int>(_bins.size());
         _bins.push_back({_nodes[node].corner, _nodes[node].size, {}, 0});
+        _lobe.push_back(std::move(points));
         return;
     }
     const ChartPoint corner = _nodes[node].corner;
@@ -141,6 +143,23 @@ double SphereCells::integrate(const std::function<Density(const Direction&)>& f,
         scaled.add(sum, size * size);
         return scaled;
     };
+    // Of each bin, the lobe's directions where f has a density; found when first asked for.
+    std::vector<std::optional<std::vector<ChartPoint>>> alive(_bins.size());
+    const auto missed = [&](std::size_t bin, const ChartPoint& corner, double size) {
+        if (!alive[bin])
+        {
+            alive[bin].emplace();
+            for (const ChartPoint& p : _lobe[bin])
+                if (f(_charts.direction_of(p)).pdf > 0) alive[bin]->push_back(p);
+            asked += _lobe[bin].size();
+        }
+        const auto inside = [&](const ChartPoint& p) {
+            return p.x >= corner.x && p.x < corner.x + size && p.y >= corner.y &&
+                   p.y < corner.y + size;
+        };
+        return static_cast<double>(std::count_if(alive[bin]->begin(), alive[bin]->end(), inside)) /
+               _lobe_size;
+    };
     const auto piece = [&](std::size_t bin, const ChartPoint& corner, double size,
                            const Density& whole) {
         Piece p{bin, corner, size, {}, 0};
@@ -152,6 +171,7 @@ double SphereCells::integrate(const std::function<Density(const Direction&)>& f,
             sum.add(p.quarters[static_cast<std::size_t>(q)], 1);
         }
         p.error = largest_difference(sum, whole);
+        if (sum.pdf == 0 && whole.pdf == 0) p.error += missed(bin, corner, size);
         return p;
     };
 

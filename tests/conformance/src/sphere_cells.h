@@ -67,7 +67,9 @@ public:
     SphereCells(const Direction& wo, const std::vector<Direction>& lobe, double share);
 
     /// Integrates over every bin, halving where it pays, until the estimated errors add up to less
-    /// than `tolerance` or f was asked `most` times. Returns the sum of the errors.
+    /// than `tolerance` or f was asked `most` times. Returns the sum of the errors. A piece where f
+    /// has no density at any node, but at directions of the lobe, errs by their share: a strip
+    /// along its edge may be all that the lobe has there.
     double integrate(const std::function<Density(const Direction&)>& f, double tolerance,
                      std::size_t most);
 
@@ -89,6 +91,8 @@ private:
     Charts _charts;
     std::vector<Node> _nodes;  // the charts first
     std::vector<Bin> _bins;
+    std::vector<std::vector<ChartPoint>> _lobe;  // its directions, by bin
+    double _lobe_size;
 };
 
 }  // namespace conformance

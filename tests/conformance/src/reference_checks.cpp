@@ -183,8 +183,12 @@ std::optional<Outcome> float_is_near_double(Bench& bench)
     std::sort(off.begin(), off.end());
     const double median = off[off.size() / 2], p999 = off[off.size() * 999 / 1000];
     constexpr double median_bound = 2e-6, p999_bound = 1e-3, albedo_bound = 1e-4;
+    // The one that is nearest to its bound, or furthest beyond.
     o.measured = p999;
     o.bound = p999_bound;
+    for (const auto& [measured, bound] :
+         {std::pair(median, median_bound), std::pair(albedo_off, albedo_bound)})
+        if (measured / bound > o.measured / o.bound) o.measured = measured, o.bound = bound;
     o.note = "median " + shown(median) + ", albedo " + shown(albedo_off);
     o.detail += "; median " + shown(median) + " (accepted " + shown(median_bound) + "), albedo() " +
                 shown(albedo_off) + " (accepted " + shown(albedo_bound) + ")";

@@ -18,7 +18,7 @@ std::string needs_a_reference(const Subject& subject, const Traits&)
 {
     const Reads reads = subject.reads();
     if (!subject.reference()) return "no reference is known";
-    return reads.schlick || reads.conductor ? "" : "it has no colour of its own";
+    return reads.schlick || reads.conductor || reads.eta ? "" : "it has no colour of its own";
 }
 
 // Mean weights of samples, the same random numbers for everyone.
@@ -30,10 +30,19 @@ MeanColor sampled_albedo(const TestedClosure& prepared, std::size_t n, Random ra
     for (std::size_t g = 0; g < groups; ++g)
     {
         EvenPoints even(random.cube());
-        Color sum(0.0);
+        Color reflect(0.0), transmit(0.0);
         for (std::size_t i = 0; i < each; ++i)
-            sum += prepared.sample(even.next()).weight * (1 / static_cast<double>(each));
-        for (int c = 0; c < 3; ++c) mean.both[static_cast<std::size_t>(c)].add(sum[c]);
+        {
+            const Sample<double> s = prepared.sample(even.next());
+            (s.transmitted ? transmit : reflect) += s.weight * (1 / static_cast<double>(each));
+        }
+        for (int c = 0; c < 3; ++c)
+        {
+            const auto k = static_cast<std::size_t>(c);
+            mean.reflect[k].add(reflect[c]);
+            mean.transmit[k].add(transmit[c]);
+            mean.both[k].add(reflect[c] + transmit[c]);
+        }
     }
     return mean;
 }
@@ -67,7 +76,9 @@ std::optional<Outcome> tint_is_that_of_all_bounces(Bench& bench)
 {
     const std::optional<double> bound = bench.promises().tint;
     const Parameters& p = bench.parameters();
-    if (!bound || p.reflectance == Reflectance::white) return std::nullopt;
+    // White mirrors are for C8; what glass reflects and what it passes is never white.
+    const bool glass = bench.subject().reads().eta;
+    if (!bound || (p.reflectance == Reflectance::white && !glass)) return std::nullopt;
     const auto reference = bench.subject().reference()->make(p);
     reference->prepare(bench.setting().wo);
     const MeanColor is = sampled_albedo(bench.closure(), bench.effort().even_samples,
@@ -76,18 +87,28 @@ std::optional<Outcome> tint_is_that_of_all_bounces(Bench& bench)
                                             bench.random("C9 reference"));
     Outcome worst;
     worst.bound = *bound;
-    for (std::size_t k = 0; k < 3; ++k)
+    const auto compare = [&](const std::array<RunningMean, 3>& found,
+                             const std::array<RunningMean, 3>& wanted, const char* what) {
+        for (std::size_t k = 0; k < 3; ++k)
+        {
+            const double off = std::abs(found[k].mean() - wanted[k].mean());
+            if (off < worst.measured) continue;
+            worst.measured = off;
+            const double error = std::hypot(found[k].standard_error(), wanted[k].standard_error());
+            worst.probability = off <= *bound ? 1
+                                : error > 0   ? student_tail((off - *bound) / error, 31)
+                                              : 0;
+            worst.detail = "channel " + std::to_string(k) + ": " + what + shown(found[k].mean()) +
+                           ", with all bounces simulated " + shown(wanted[k].mean());
+        }
+    };
+    compare(is.both, should.both, "albedo ");
+    if (glass)
     {
-        const double off = std::abs(is.both[k].mean() - should.both[k].mean());
-        if (off < worst.measured) continue;
-        worst.measured = off;
-        const double error =
-            std::hypot(is.both[k].standard_error(), should.both[k].standard_error());
-        worst.probability = off <= *bound ? 1
-                            : error > 0   ? student_tail((off - *bound) / error, 31)
-                                          : 0;
-        worst.detail = "channel " + std::to_string(k) + ": albedo " + shown(is.both[k].mean()) +
-                       ", with all bounces simulated " + shown(should.both[k].mean());
+        // Their sum hardly knows what a facet does with them.
+        compare(is.reflect, should.reflect, "reflected ");
+        compare(is.transmit, should.transmit, "transmitted ");
+        worst.probability = std::min(1.0, 3 * worst.probability);
     }
     if (std::string what; !grows_with_reflectance(bench, &what))
     {
@@ -160,8 +181,12 @@ std::optional<Outcome> float_is_near_double(Bench& bench)
     std::sort(off.begin(), off.end());
     const double median = off[off.size() / 2], p999 = off[off.size() * 999 / 1000];
     constexpr double median_bound = 5e-6, p999_bound = 1e-3, albedo_bound = 1e-4;
+    // The one that is nearest to its bound, or furthest beyond.
     o.measured = p999;
     o.bound = p999_bound;
+    for (const auto& [measured, bound] :
+         {std::pair(median, median_bound), std::pair(albedo_off, albedo_bound)})
+        if (measured / bound > o.measured / o.bound) o.measured = measured, o.bound = bound;
     o.note = "median " + shown(median) + ", albedo " + shown(albedo_off);
     o.detail += "; median " + shown(median) + " (accepted " + shown(median_bound) + "), albedo() " +
                 shown(albedo_off) + " (accepted " + shown(albedo_bound) + ")";

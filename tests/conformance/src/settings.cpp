@@ -144,7 +144,8 @@ void add_commit(List& list)
     list.add(at(0.25, 0.25, 1), {0.7}, {0}, false);
     list.add(at(0.25, 0.25, 1 / 1.5), {0.7, 0.3}, {0}, false);
     list.add(at(1, 1, 1 / 1.5), {0.7}, {0}, false);
-    list.add(with_gamma(wide(0.25), 3), {0.3});
+    // Long enough tails need a formula of their own at 1.
+    for (double gamma : {3.0, 1.0}) list.add(with_gamma(wide(0.25), gamma), {0.3});
     for (double alpha : {0.25, 1.0})
     {
         list.add(schlick(at(alpha, alpha)), {0.7});

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+/// @file
+/// The list of planted bugs: which fault of which textbook closure, and the check that is meant to
+/// see it.
+
+#pragma once
+
+#include "planted_subject.h"
+
+#include <vector>
+
+namespace regain::planted {
+
+struct Bug
+{
+    std::string name;
+    std::string check;
+    std::function<PlantedSubject(const std::string& name)> subject;
+    /// One setting of the commit tier in which it shows, or empty: all of them. Tests look there
+    /// alone, which is what keeps them short.
+    std::string setting;
+};
+
+const std::vector<Bug>& bugs();
+
+/// The closures without a fault.
+std::vector<PlantedSubject> faultless();
+
+}  // namespace regain::planted

@@ -15,10 +15,14 @@ constexpr double pi = 3.14159265358979324, albedo_of_it = 0.5;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 [[maybe_unused]] const char bad_name[] = "a name; with more";
 
+// Unlike <, these raise no floating-point exception where a number is NaN.
 bool usable(const double w[3])
 {
+    for (int k = 0; k < 3; ++k)
+        if (!std::isless(std::abs(w[k]), 1.1)) return false;
     return std::abs(w[0] * w[0] + w[1] * w[1] + w[2] * w[2] - 1) < 1e-5 && w[2] > 0;
 }
+double in_unit(double x) { return std::isless(0, x) ? (std::isless(x, 1) ? x : 1) : 0; }
 
 // The closure has no state, but each is another object, and is destroyed as such.
 void* create(const regain_parameters_v1*) { return new double(albedo_of_it); }
@@ -42,7 +46,7 @@ void sample(const void* closure, const double wo[3], const double u[3], regain_s
 {
     out->wi[2] = 1;
     if (!usable(wo)) return;
-    const double x = u[0] > 0 ? std::fmin(u[0], 1) : 0, y = u[1] > 0 ? std::fmin(u[1], 1) : 0;
+    const double x = in_unit(u[0]), y = in_unit(u[1]);
     const double r = std::sqrt(1 - x);
     const double wi[3] = {r * std::cos(2 * pi * y), r * std::sin(2 * pi * y), std::sqrt(x)};
     if (!usable(wi)) return;

@@ -173,7 +173,8 @@ private:
             });
         try
         {
-            for (std::unique_lock<std::mutex> lock(_mutex); running > 0;)
+            std::unique_lock<std::mutex> lock(_mutex);
+            while (running > 0)
             {
                 ended.wait_for(lock, std::chrono::milliseconds(100));
                 if (!_options.progress) continue;

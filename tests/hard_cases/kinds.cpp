@@ -9,6 +9,7 @@
 #include <regain/closures/diffuse.h>
 #include <regain/closures/sheen.h>
 #include <regain/closures/sum.h>
+#include <regain/luts/builtin.h>
 
 namespace regain::tests {
 namespace {
@@ -39,7 +40,8 @@ void add_others(std::vector<Kind<ScalarOf<Number>>>& out)
                                   mixed<Number>(s.alpha_y, ordinary.alpha_y));
             const ConductorFresnel<Number> metal(mixed<Number>(s.n, ordinary.n),
                                                  mixed<Number>(s.k, ordinary.k));
-            return sum(Conductor<Number>(ggx, metal), sheen(s));
+            // A sum asks for albedos to choose by, which without tables are integrals.
+            return sum(Conductor<Number>(ggx, metal, luts::ggx_tables()), sheen(s));
         });
 }
 

@@ -30,8 +30,7 @@ public:
         std::vector<Vec3<Real>> all;
         for (std::size_t i = 0; i < n; ++i)
             for (std::size_t j = 0; j < n; ++j)
-                for (std::size_t shift : {std::size_t(0), std::size_t(1)})
-                    all.push_back({end[i], end[j], end[(i + 2 * j + shift) % n]});
+                all.push_back({end[i], end[j], end[(i + 2 * j) % n]});
         return all;
     }
     static std::vector<Parameters> all_parameters()
@@ -41,18 +40,24 @@ public:
         return {rough, narrow, wide};
     }
 };
+/// One of all kinds that differ in a gain alone, which no direction and no pdf knows of.
+template <class Real>
+const auto shapes = [](const Kind<Real>& kind) {
+    return kind.is_bare() || kind.has_added_lobe() || kind.is_walk() || kind.method == "turquin" ||
+           kind.lobe == Lobe::sheened;
+};
 TYPED_TEST_SUITE(RandomNumbers, Numbers, NumberNames);
 
 // The estimator of every path tracer: weight = f cos / pdf, with the pdf that the host can ask for.
 TYPED_TEST(RandomNumbers, at_the_corners_a_weight_is_eval_over_pdf)
 {
     using Real = TypeParam;
-    for_each_kind<Real>([&](const auto& kind) {
+    for_each_kind<Real>(shapes<Real>, [&](const auto& kind) {
         for (const Parameters& parameters : this->all_parameters())
         {
             const auto subject = kind.make(parameters);
             const Traits traits = subject->traits();
-            for (double mu : {1e-4, 0.4, 1.0, -0.7})
+            for (double mu : {1e-4, 1.0, -0.7})
                 for (const Vec3<Real>& u : this->corners())
                 {
                     const auto wo = towards<Real>(mu);
@@ -169,16 +174,16 @@ TYPED_TEST(RandomNumbers, beyond_the_ends_samples_stay_samples)
 {
     REGAIN_NEEDS_INFINITIES();
     using Real = TypeParam;
-    for_each_kind<Real>([](const auto& kind) {
+    for_each_kind<Real>(shapes<Real>, [](const auto& kind) {
         const auto subject = kind.make(Parameters());
         const auto wo = towards<Real>(0.6);
         const Real out[] = {Real(0.5),        Real(-1),       Real(2),
                             Real(tests::nan), Real(infinity), Real(-infinity)};
+        constexpr int n = sizeof out / sizeof *out;
         int found = 0;
-        for (Real x : out)
-            for (Real y : out)
-                for (Real z : out)
-                    if (subject->sample(wo, {x, y, z}).valid) ++found;
+        for (int i = 0; i < n; ++i)
+            for (int j = 0; j < n; ++j)
+                if (subject->sample(wo, {out[i], out[j], out[(i + j) % n]}).valid) ++found;
         EXPECT_GT(found, 0);
     });
 }

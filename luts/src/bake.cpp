@@ -126,7 +126,9 @@ public:
         for (int k = 0; k < definition.depth; ++k)
             for (int j = 0; j < definition.height; ++j)
                 for (int i = 0; i < definition.width; ++i)
-                    _nodes.push_back(exact(i * n, j * n, k * n));
+                    // Quadrature may end a little above 1.
+                    _nodes.push_back(std::clamp(exact(i * n, j * n, k * n), definition.lowest,
+                                                definition.highest));
         for (int k = 0; k < lattice.depth; ++k)
             for (int j = 0; j < lattice.height; ++j)
                 for (int i = 0; i < lattice.width; ++i)

@@ -24,8 +24,9 @@ constexpr int table_nodes = 32;
 constexpr int sum_cosines = 2 * (table_nodes - 1) + 1;
 // From inside, the place and width of the dip about the critical cosine change with all three.
 constexpr int inside_sum_alphas = 48, inside_sum_indices = 63;
-// In the beta form the sum falls by powers where the cosine is below alpha.
-constexpr int inside_beta_cosines = 3 * (table_nodes - 1) + 1, outside_beta_indices = 48;
+// In the beta form the sum falls by powers where the cosine is below alpha. From inside, that of
+// STD is as curved there at alpha 1, and nobody ships tables of one gamma.
+constexpr int fine_inside_cosines = 3 * (table_nodes - 1) + 1, outside_beta_indices = 48;
 
 // Row 0 is the limit of vanishing alpha at fixed x, which alpha 0 itself does not have.
 constexpr double smallest_alpha = 1e-6;
@@ -332,12 +333,9 @@ Definition Definition::of(const std::string& name)
                     d.height = inside_sum_alphas;
                     d.depth = inside_sum_indices;
                 }
-                if (!share && beta)
-                {
-                    (d.family.inside ? d.width : d.depth) =
-                        d.family.inside ? inside_beta_cosines : outside_beta_indices;
-                    d.family.near_index = d.family.inside;
-                }
+                if (!share && d.family.inside && (beta || tailed)) d.width = fine_inside_cosines;
+                if (!share && !d.family.inside && beta) d.depth = outside_beta_indices;
+                d.family.near_index = !share && d.family.inside && beta;
                 d.fitted = !share;
                 d.value = share ? (beta ? beta_share : correlated_share)
                                 : (beta ? log_beta_sum : correlated_sum);

@@ -149,7 +149,7 @@ private:
             if (most < 1e-9) return;
             digits = std::min(1.0, std::max(0.3, 1 + std::log10(most) / 8));
         }
-        const QuadratureRule& rule = rule_for(digits * std::min(1.5, 0.5 + 0.2 * range));
+        const QuadratureRule& rule = rule_for(digits * std::min(3.0, 0.5 + 0.2 * range));
         for (std::size_t i = 0; i < rule.x.size(); ++i)
         {
             const double t = rule.x[i], y = first + range * smooth_step(t);

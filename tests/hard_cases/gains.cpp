@@ -92,7 +92,7 @@ TYPED_TEST(Gains, the_smallest_number_of_a_table_gives_its_inverse)
         const WhileLibraryRuns guard;
         const MethodGain<Real> gain(lobe, method, tables, Real(1));
         // 1 - F + F E is E where F is 1, unless the compiler makes 1 - F (1 - E) of it again.
-        const double tolerance = fast_math ? 65535 * 65535 * 1e-7 : 0.5;
+        const double tolerance = fast_math ? 65535.0 * 65535 * 1e-7 : 0.5;
         EXPECT_NEAR(gain.at(towards<Real>(0.3)).x, 65535, tolerance) << name(method);
     }
 }

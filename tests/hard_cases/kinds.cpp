@@ -55,7 +55,11 @@ std::vector<Kind<Real>> all_kinds()
     add_std(all);
     add_others<Real>(all);
     if constexpr (sizeof(Real) == 4) add_others<Batch>(all);
-    return all;
+    if (vectors_are_promised) return all;
+    std::vector<Kind<Real>> scalars;
+    for (const Kind<Real>& kind : all)
+        if (!kind.batch) scalars.push_back(kind);
+    return scalars;
 }
 
 }  // namespace

@@ -67,6 +67,14 @@ Promises promises_of(const ClosureSpec& spec, const Imath::V3d& wo)
         p.weight = std::nullopt;
         return p;
     }
+    // Exact conductors are looked up by two moments of Schlick's curve.
+    if (spec.lobe == Lobe::conductor && std::holds_alternative<ConductorParameters>(spec.fresnel))
+        p.albedo = 1.2e-2;
+    else if (spec.distribution != DistributionKind::ggx)
+        p.albedo = 5e-3;
+    // Sums of the beta form are looked up as logarithms.
+    if (glass && compensates && spec.interface.shadowing == TransmissionShadowing::beta)
+        p.single = 2e-3;
     if (std::holds_alternative<shaders::BurleySheen>(spec.method))
     {
         // It adds what it adds.
@@ -74,9 +82,6 @@ Promises promises_of(const ClosureSpec& spec, const Imath::V3d& wo)
         if (!isotropic) p.albedo = std::nullopt;
         return p;
     }
-    // Exact conductors are looked up by two moments of Schlick's curve.
-    if (spec.lobe == Lobe::conductor && std::holds_alternative<ConductorParameters>(spec.fresnel))
-        p.albedo = 1.2e-2;
     // How much of what an interface sends back and on is reflected.
     if (glass && spec.interface.mode != ScatterMode::RT) p.albedo = 0.05;
     p.tint = isotropic && !glass ? tint_of(spec.method) : std::nullopt;

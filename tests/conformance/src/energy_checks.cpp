@@ -19,11 +19,12 @@ struct Energy
 {
     double value;
     const RunningMean* mean;  // null: without
+    double error;             // of an integral
 
     double beyond(double expected, double bound) const
     {
         if (mean) return tail_beyond(*mean, expected, bound);
-        return std::abs(value - expected) <= bound ? 1 : 0;
+        return std::abs(value - expected) <= bound + error ? 1 : 0;
     }
 };
 
@@ -31,8 +32,8 @@ struct Energy
 Energy total_energy(const Survey& s, std::size_t channel)
 {
     if (!s.traits.stochastic_eval && s.resolved)
-        return {s.total()[static_cast<int>(channel)], nullptr};
-    return {s.weight.both[channel].mean(), &s.weight.both[channel]};
+        return {s.total()[static_cast<int>(channel)], nullptr, s.error};
+    return {s.weight.both[channel].mean(), &s.weight.both[channel], 0};
 }
 
 std::string needs_own_values(const Subject& subject, const Traits&)

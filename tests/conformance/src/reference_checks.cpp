@@ -180,7 +180,8 @@ std::optional<Outcome> float_is_near_double(Bench& bench)
     if (off.size() < 10) return std::nullopt;
     std::sort(off.begin(), off.end());
     const double median = off[off.size() / 2], p999 = off[off.size() * 999 / 1000];
-    constexpr double median_bound = 5e-6, p999_bound = 1e-3, albedo_bound = 1e-4;
+    const double p999_bound = bench.promises().single, median_bound = p999_bound / 200;
+    constexpr double albedo_bound = 1e-4;
     // The one that is nearest to its bound, or furthest beyond.
     o.measured = p999;
     o.bound = p999_bound;

@@ -151,7 +151,7 @@ void add_commit(List& list)
         list.add(schlick(at(alpha, alpha)), {0.7});
         list.add(gold(at(alpha, alpha)), {0.3});
     }
-    list.add(schlick(at(1, 1)), {0.02});
+    list.add(schlick(at(0.25, 0.25)), {0.02});
     for (double alpha : {0.04, 1.0}) list.add(in_float(at(alpha, alpha)), {0.7});
     list.add(in_float(at(0.25, 0.25)), {0.02});
     list.add(at(0.25, 0.0625), {0.7}, {0, 45, 90});

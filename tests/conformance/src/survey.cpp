@@ -17,6 +17,8 @@ constexpr std::size_t groups = 32;
 
 // Bins hold this share of the lobe each.
 constexpr double bin_share = 1.0 / 256;
+// An integral with a larger error says nothing; one with less, within it.
+constexpr double most_unresolved = 5e-4;
 constexpr std::size_t scouts = 1 << 14;
 
 void add(std::array<RunningMean, 3>& means, const Color& c)
@@ -116,7 +118,7 @@ Survey survey(TestedClosure& closure, const Direction& wo, const Effort& effort,
             return Density{closure.pdf(wi), exact ? closure.eval(wi, Direction(0.5)) : Color(0.0)};
         },
         effort.tolerance, effort.evaluations);
-    out.resolved = out.error <= effort.tolerance;
+    out.resolved = out.error <= most_unresolved;
     for (const Bin& b : cells.bins())
     {
         out.pdf += b.integral.pdf;

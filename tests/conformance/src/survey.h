@@ -22,7 +22,7 @@ struct Effort
 {
     std::size_t samples = 1 << 18;       ///< independent ones, for histograms
     std::size_t even_samples = 1 << 16;  ///< evenly spread ones, for means
-    std::size_t evaluations = 1 << 18;   ///< at most, of an integral
+    std::size_t evaluations = 1 << 19;   ///< at most, of an integral
     std::size_t estimates = 1 << 15;     ///< of a value that is one
     double tolerance = 3e-5;             ///< of an integral
 
@@ -50,7 +50,7 @@ struct Survey
     // The integrals: of pdf over the sphere, of eval over either side where it is no estimate.
     // `error` is the estimated error of the worst of them.
     double pdf = 0, error = 0;
-    bool resolved = false;  ///< the error is below the tolerance
+    bool resolved = false;  ///< the error is small enough to say something
     Color reflect{0.0}, transmit{0.0};
 
     // The samples.

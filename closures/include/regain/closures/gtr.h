@@ -56,9 +56,10 @@ public:
           _log_beta(detail::log(_alpha_x) + detail::log(_alpha_y)),
           _mixture(_beta, _log_beta, _gamma)
     {
-        const Real alpha = detail::sqrt(_beta);
-        _stretch_x = _alpha_x / alpha;
-        _stretch_y = _alpha_y / alpha;
+        // Their product is 1. Two quotients by one number g++ makes a vector of four, of which two
+        // are whatever was there, and that may trap.
+        _stretch_x = _alpha_x / detail::sqrt(_beta);
+        _stretch_y = Real(1) / _stretch_x;
         // D at m = (0, 0, 1). With l = ln beta and phi(x) = x / (e^x - 1), which is 1 at 0, it is
         // phi((gamma-1) l) / (phi(l) pi beta): nothing is divided by 0 at gamma = 1 or alpha = 1.
         _peak = constant(0.318309886183790671538) * phi((_gamma - Real(1)) * _log_beta) /

@@ -63,6 +63,9 @@ struct Promises
     std::optional<double> tint;
     /// No sample weighs more.
     std::optional<double> weight = 1;
+    /// In float, eval is within this of double, relative, but for one in a thousand; half of all
+    /// are within a 200th of it.
+    double single = 1e-3;
 };
 
 /// A distribution of microfacet normals, alone; see regain/closures/distribution.h for what each of

@@ -106,46 +106,44 @@ private:
                 std::clamp(3.0, _reads.lowest_gamma, _reads.highest_gamma)};
     }
 
-    // The largest alpha that is a mirror, or 0: none is.
-    double mirror_edge(Parameters p)
+    // The largest x up to `most` at which something holds that holds at 0 and no longer at `most`;
+    // or 0, where it is not so.
+    template <class Holds>
+    static double edge(double most, const Holds& holds)
     {
-        const auto is_mirror = [&](double alpha) {
-            p.alpha_x = p.alpha_y = alpha;
-            const auto closure = _bench.subject().make(p);
-            closure->prepare(direction_at(0.7));
-            const Sample<double> s = closure->sample(Direction(0.4, 0.6, 0.01));
-            return s.valid && s.delta && !s.transmitted;
-        };
-        if (!is_mirror(0) || is_mirror(0.1)) return 0;
-        double lo = -40, hi = std::log(0.1);
-        if (!is_mirror(std::exp(lo))) return 0;
+        double lo = -40, hi = std::log(most);
+        if (!holds(0) || holds(most) || !holds(std::exp(lo))) return 0;
         for (int i = 0; i < 60; ++i)
         {
             const double middle = 0.5 * (lo + hi);
-            (is_mirror(std::exp(middle)) ? lo : hi) = middle;
+            (holds(std::exp(middle)) ? lo : hi) = middle;
         }
         return std::exp(lo);
     }
-
-    // The largest eta - 1 at which transmission is a delta lobe, or 0: it always is, or never.
-    double delta_edge(Parameters p)
+    Sample<double> sampled(const Parameters& p, double choice) const
     {
-        const auto is_delta = [&](double off) {
+        const auto closure = _bench.subject().make(p);
+        closure->prepare(direction_at(0.7));
+        return closure->sample(Direction(0.4, 0.6, choice));
+    }
+
+    // The largest alpha that is a mirror.
+    double mirror_edge(Parameters p) const
+    {
+        return edge(0.1, [&](double alpha) {
+            p.alpha_x = p.alpha_y = alpha;
+            const Sample<double> s = sampled(p, 0.01);
+            return s.valid && s.delta && !s.transmitted;
+        });
+    }
+    // The largest eta - 1 at which transmission is a delta lobe.
+    double delta_edge(Parameters p) const
+    {
+        return edge(0.5, [&](double off) {
             p.eta = 1 + off;
-            const auto closure = _bench.subject().make(p);
-            closure->prepare(direction_at(0.7));
-            const Sample<double> s = closure->sample(Direction(0.4, 0.6, 0.99));
+            const Sample<double> s = sampled(p, 0.99);
             return s.valid && s.delta && s.transmitted;
-        };
-        if (!is_delta(0) || is_delta(0.5)) return 0;
-        double lo = -34, hi = std::log(0.5);
-        if (!is_delta(std::exp(lo))) return 0;
-        for (int i = 0; i < 60; ++i)
-        {
-            const double middle = 0.5 * (lo + hi);
-            (is_delta(std::exp(middle)) ? lo : hi) = middle;
-        }
-        return std::exp(lo);
+        });
     }
 
     Energies energies(const Parameters& p, const Direction& wo)

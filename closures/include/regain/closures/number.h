@@ -216,7 +216,8 @@ template <class Real>
 Real sanitised(const Real& x, double lo, double hi, double otherwise)
 {
     const Real low = constant<Real>(lo), high = constant<Real>(hi);
-    const Real number = select(x != x, constant<Real>(otherwise), x);
+    // By ==: xsimd's != is false for a NaN where vectors are AVX's.
+    const Real number = select(x == x, x, constant<Real>(otherwise));
     return select(quiet_less(number, low), low, select(quiet_less(high, number), high, number));
 }
 

@@ -252,12 +252,11 @@ public:
         }
 
         // The third number of the normal has to be independent of the choice of the lobe.
-        static Vec3<Real> normal_numbers(const Vec3<Real>& u)
+        Vec3<Real> normal_numbers(const Vec3<Real>& u) const
         {
             if constexpr (Distribution::random_numbers > 2)
-                return {u.x, u.y, RandomStream<Real>(u).next()};
-            else
-                return u;
+                if (both_lobes()) return {u.x, u.y, RandomStream<Real>(u).next()};
+            return u;
         }
 
         bool reflects() const { return _lobe._mode != ScatterMode::T; }

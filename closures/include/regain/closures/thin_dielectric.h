@@ -151,9 +151,7 @@ public:
             for (int j = 0; j < n; ++j)
                 for (int i = 0; i < n; ++i)
                 {
-                    const Vec3<Real> u(detail::constant<Real>((i + 0.5) / n),
-                                       detail::constant<Real>((j + 0.5) / n), Real(0.5f));
-                    const Sample<Real> m = _mirror.sample(normal_numbers(u));
+                    const Sample<Real> m = _mirror.sample(detail::grid_numbers<Real>(i, j, n));
                     all += m.weight.x;
                     reflected += m.weight.x * reflectance(m.wi);
                 }
@@ -208,12 +206,11 @@ public:
         Vec3<Real> turned(const Vec3<Real>& w) const { return {w.x, w.y, w.z * _side}; }
 
         // The third number of the normal has to be independent of the choice of the lobe.
-        static Vec3<Real> normal_numbers(const Vec3<Real>& u)
+        Vec3<Real> normal_numbers(const Vec3<Real>& u) const
         {
             if constexpr (Distribution::random_numbers > 2)
-                return {u.x, u.y, RandomStream<Real>(u).next()};
-            else
-                return u;
+                if (_mode == ScatterMode::RT) return {u.x, u.y, RandomStream<Real>(u).next()};
+            return u;
         }
 
         ScatterMode _mode;

@@ -19,15 +19,33 @@ constexpr int deepest = 40;
 constexpr int shallowest = 2;
 constexpr double smallest = 0x1p-44;
 
-// The Gauss-Legendre rule of 4 nodes on [0, 1] (Abramowitz and Stegun, Table 25.4).
-constexpr std::array<double, 4> nodes{0.06943184420297371, 0.33000947820757187, 0.66999052179242813,
-                                      0.93056815579702629};
-constexpr std::array<double, 4> weights{0.17392742256872693, 0.32607257743127307,
-                                        0.32607257743127307, 0.17392742256872693};
+// A rule of 4 nodes on [0, 1], exact for polynomials up to the fifth degree: all but Lobatto's
+// (Abramowitz and Stegun, 25.4.32), whose outer nodes are the ends. A peak that begins shortly
+// before the end of a cell, and is nothing up to there, is seen by them and by no inner ones; at
+// the very end, lobes jump.
+constexpr double to_end = 1e-4;
+constexpr std::array<double, 4> nodes{to_end, 0.2764379504584964, 0.7235620495415036, 1 - to_end};
+constexpr std::array<double, 4> weights{0.08341671668833976, 0.4165832833116602, 0.4165832833116602,
+                                        0.08341671668833976};
 
 ChartPoint quarter_of(const ChartPoint& corner, double half, int quarter)
 {
     return {corner.chart, corner.x + half * (quarter & 1), corner.y + half * (quarter >> 1)};
+}
+
+// A place over the edge of a chart, in the one that lies there: of the next quarter turn, or beyond
+// the horizon.
+ChartPoint wrapped(ChartPoint p)
+{
+    if (p.x > 1)
+    {
+        p.x = 2 - p.x;
+        p.chart ^= 4;
+    }
+    const int turn = p.y < 0 ? -1 : p.y > 1 ? 1 : 0;
+    p.y -= turn;
+    p.chart = (p.chart & 4) | ((p.chart + turn) & 3);
+    return p;
 }
 
 double largest_difference(const Density& a, const Density& b)
@@ -37,11 +55,19 @@ double largest_difference(const Density& a, const Density& b)
     return most;
 }
 
+// How far two halves are from the whole.
+double off(const std::array<Density, 2>& halves, const Density& whole)
+{
+    Density sum = halves[0];
+    sum.add(halves[1], 1);
+    return largest_difference(sum, whole);
+}
+
 // Points that are not spread over a cell but gathered in a part of it, where a rule of few nodes
 // may see nothing.
 bool gathered(const std::vector<ChartPoint>& points, const ChartPoint& corner, double size)
 {
-    if (points.size() < 4) return false;
+    if (points.size() < 2) return false;
     std::array<bool, 16> taken{};
     for (const ChartPoint& p : points)
     {
@@ -67,14 +93,15 @@ std::array<std::vector<ChartPoint>, 4> quartered(const std::vector<ChartPoint>& 
 
 }  // namespace
 
-// A piece of a bin, with the integrals over its quarters and how far they are from one rule over
-// the whole.
+// A piece of a bin, with the integrals over its halves, across x or across y, whichever are further
+// from one rule over the whole: along an edge, or a long lobe, cells then grow long, too.
 struct SphereCells::Piece
 {
     std::size_t bin;
     ChartPoint corner;
-    double size;
-    std::array<Density, 4> quarters;
+    double width, height;
+    bool across_x;
+    std::array<Density, 2> halves;
     double error;
 
     bool operator<(const Piece& other) const { return error < other.error; }
@@ -118,6 +145,33 @@ SphereCells::SphereCells(const Direction& wo, const std::vector<Direction>& lobe
     const auto most = std::max<std::size_t>(
         1, static_cast<std::size_t>(share * static_cast<double>(lobe.size())));
     for (std::size_t chart = 0; chart < 8; ++chart) grow(chart, std::move(points[chart]), most, 0);
+    look_beyond_borders();
+}
+
+// The flank of a lobe that ends in a corner of a large bin has few directions there, or none, and a
+// rule of few nodes would not see it. So each direction counts as far behind each border, too.
+void SphereCells::look_beyond_borders()
+{
+    std::vector<ChartPoint> mirrored;
+    for (std::size_t b = 0; b < _bins.size(); ++b)
+        for (const ChartPoint& p : _points[b])
+            for (int border = 0; border < 4; ++border)
+            {
+                const double far = border & 1 ? _bins[b].size : 0;
+                ChartPoint q = p;
+                if (border & 2)
+                    q.x = 2 * (_bins[b].corner.x + far) - p.x;
+                else
+                    q.y = 2 * (_bins[b].corner.y + far) - p.y;
+                if (q.x >= 0) mirrored.push_back(wrapped(q));
+            }
+    for (const ChartPoint& q : mirrored) _points[bin_of(q)].push_back(q);
+}
+
+void SphereCells::look_at(const Direction& w)
+{
+    const ChartPoint p = _charts.place_of(w);
+    _points[bin_of(p)].push_back(p);
 }
 
 void SphereCells::grow(std::size_t node, std::vector<ChartPoint> points, std::size_t most,
@@ -127,7 +181,7 @@ void SphereCells::grow(std::size_t node, std::vector<ChartPoint> points, std::si
     {
         _nodes[node].bin = static_cast<int>(_bins.size());
         _bins.push_back({_nodes[node].corner, _nodes[node].size, {}, 0});
-        _lobe.push_back(std::move(points));
+        _points.push_back(std::move(points));
         return;
     }
     const ChartPoint corner = _nodes[node].corner;
@@ -140,9 +194,10 @@ void SphereCells::grow(std::size_t node, std::vector<ChartPoint> points, std::si
     for (std::size_t q = 0; q < 4; ++q) grow(first + q, std::move(parts[q]), most, depth + 1);
 }
 
-std::size_t SphereCells::bin_of(const Direction& w) const
+std::size_t SphereCells::bin_of(const Direction& w) const { return bin_of(_charts.place_of(w)); }
+
+std::size_t SphereCells::bin_of(const ChartPoint& p) const
 {
-    const ChartPoint p = _charts.place_of(w);
     std::size_t node = static_cast<std::size_t>(p.chart);
     while (_nodes[node].children >= 0)
     {
@@ -158,31 +213,39 @@ double SphereCells::integrate(const std::function<Density(const Direction&)>& f,
                               std::size_t most)
 {
     std::size_t asked = 0;
-    const auto over = [&](const ChartPoint& corner, double size) {
+    const auto over = [&](const ChartPoint& corner, double width, double height) {
         Density sum;
         for (std::size_t i = 0; i < nodes.size(); ++i)
             for (std::size_t j = 0; j < nodes.size(); ++j)
             {
-                const ChartPoint p{corner.chart, corner.x + size * nodes[i],
-                                   corner.y + size * nodes[j]};
+                const ChartPoint p{corner.chart, corner.x + width * nodes[i],
+                                   corner.y + height * nodes[j]};
                 sum.add(f(_charts.direction_of(p)), weights[i] * weights[j] * pi * p.x);
             }
         asked += nodes.size() * nodes.size();
         Density scaled;
-        scaled.add(sum, size * size);
+        scaled.add(sum, width * height);
         return scaled;
     };
-    const auto piece = [&](std::size_t bin, const ChartPoint& corner, double size,
+    const auto piece = [&](std::size_t bin, const ChartPoint& corner, double width, double height,
                            const Density& whole) {
-        Piece p{bin, corner, size, {}, 0};
-        Density sum;
-        for (int q = 0; q < 4; ++q)
+        Piece p{bin, corner, width, height, true, {}, 0};
+        std::array<Density, 2> others;
+        for (int half = 0; half < 2; ++half)
         {
-            p.quarters[static_cast<std::size_t>(q)] =
-                over(quarter_of(corner, 0.5 * size, q), 0.5 * size);
-            sum.add(p.quarters[static_cast<std::size_t>(q)], 1);
+            const auto h = static_cast<std::size_t>(half);
+            p.halves[h] =
+                over({corner.chart, corner.x + 0.5 * width * half, corner.y}, 0.5 * width, height);
+            others[h] =
+                over({corner.chart, corner.x, corner.y + 0.5 * height * half}, width, 0.5 * height);
         }
-        p.error = largest_difference(sum, whole);
+        p.error = off(p.halves, whole);
+        if (const double other = off(others, whole); other > p.error)
+        {
+            p.error = other;
+            p.across_x = false;
+            p.halves = others;
+        }
         return p;
     };
 
@@ -195,7 +258,7 @@ double SphereCells::integrate(const std::function<Density(const Direction&)>& f,
                     const std::vector<ChartPoint>& points) {
             if (!gathered(points, corner, size) || size < smallest)
             {
-                pieces.push_back(piece(bin, corner, size, over(corner, size)));
+                pieces.push_back(piece(bin, corner, size, size, over(corner, size, size)));
                 error += pieces.back().error;
                 return;
             }
@@ -205,24 +268,27 @@ double SphereCells::integrate(const std::function<Density(const Direction&)>& f,
                       parts[static_cast<std::size_t>(q)]);
         };
     for (std::size_t b = 0; b < _bins.size(); ++b)
-        begin(b, _bins[b].corner, _bins[b].size, _lobe[b]);
+        begin(b, _bins[b].corner, _bins[b].size, _points[b]);
     std::make_heap(pieces.begin(), pieces.end());
     while (!pieces.empty() && error > tolerance && asked < most)
     {
         std::pop_heap(pieces.begin(), pieces.end());
         const Piece p = pieces.back();
         pieces.pop_back();
-        if (p.size < smallest)
+        const double width = p.across_x ? 0.5 * p.width : p.width;
+        const double height = p.across_x ? p.height : 0.5 * p.height;
+        if (std::min(width, height) < smallest)
         {
             done.push_back(p);
             continue;
         }
         error -= p.error;
-        const double half = 0.5 * p.size;
-        for (int q = 0; q < 4; ++q)
+        for (int half = 0; half < 2; ++half)
         {
-            pieces.push_back(piece(p.bin, quarter_of(p.corner, half, q), half,
-                                   p.quarters[static_cast<std::size_t>(q)]));
+            const ChartPoint corner{p.corner.chart, p.corner.x + (p.across_x ? width * half : 0),
+                                    p.corner.y + (p.across_x ? 0 : height * half)};
+            pieces.push_back(
+                piece(p.bin, corner, width, height, p.halves[static_cast<std::size_t>(half)]));
             error += pieces.back().error;
             std::push_heap(pieces.begin(), pieces.end());
         }
@@ -233,7 +299,7 @@ double SphereCells::integrate(const std::function<Density(const Direction&)>& f,
     for (Bin& bin : _bins) bin.integral = {}, bin.error = 0;
     for (const Piece& p : done)
     {
-        for (const Density& quarter : p.quarters) _bins[p.bin].integral.add(quarter, 1);
+        for (const Density& half : p.halves) _bins[p.bin].integral.add(half, 1);
         _bins[p.bin].error += p.error;
         error += p.error;
     }

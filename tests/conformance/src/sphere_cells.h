@@ -67,6 +67,9 @@ public:
     /// 128 at least.
     SphereCells(const Direction& wo, const std::vector<Direction>& lobe, double share);
 
+    /// Makes integrals look closely at w, too, wherever samples go. It changes no bin.
+    void look_at(const Direction& w);
+
     /// Integrates over every bin, halving where it pays, until the estimated errors add up to less
     /// than `tolerance` or f was asked `most` times. Returns the sum of the errors.
     double integrate(const std::function<Density(const Direction&)>& f, double tolerance,
@@ -88,11 +91,13 @@ private:
     struct Piece;
 
     void grow(std::size_t node, std::vector<ChartPoint> points, std::size_t most, int depth);
+    void look_beyond_borders();
+    std::size_t bin_of(const ChartPoint& p) const;
 
     Charts _charts;
     std::vector<Node> _nodes;  // the charts first
     std::vector<Bin> _bins;
-    std::vector<std::vector<ChartPoint>> _lobe;  // the lobe's directions in each bin
+    std::vector<std::vector<ChartPoint>> _points;  // in each bin, where to look closely
 };
 
 }  // namespace conformance

@@ -4,6 +4,7 @@
 #include "survey.h"
 
 #include "random.h"
+#include "settings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -39,6 +40,36 @@ std::vector<Direction> scout(const TestedClosure& closure, Random& random)
         if (s.valid && !s.delta) lobe.push_back(s.wi);
     }
     return lobe;
+}
+
+// Where in the plane of incidence the pdf is, which no sample tells of one that is not exact.
+void look_along_incidence(const TestedClosure& closure, const Direction& wo, SphereCells& cells)
+{
+    constexpr int places = 512, looks = 128;
+    const double azimuth = std::atan2(wo.y, wo.x), pi = std::acos(-1.0);
+    for (int arc = 0; arc < 4; ++arc)
+    {
+        const double phi = azimuth + (arc & 1 ? pi : 0), side = arc & 2 ? -1 : 1;
+        // Directions on either side of the plane are in different cells.
+        const auto direction = [&](double x, double off) {
+            return direction_at(side * (1 - x) * (1 + x), phi + off);
+        };
+        std::array<double, places> up_to;
+        double sum = 0;
+        for (int i = 0; i < places; ++i)
+        {
+            const double x = (i + 0.5) / places, pdf = closure.pdf(direction(x, 0));
+            up_to[static_cast<std::size_t>(i)] = sum += std::isfinite(pdf) ? pdf * x : 0;
+        }
+        if (sum <= 0) continue;
+        for (int i = 0; i < looks; ++i)
+        {
+            const auto place =
+                std::upper_bound(up_to.begin(), up_to.end() - 1, sum * (i + 0.5) / looks);
+            const double x = (static_cast<double>(place - up_to.begin()) + 0.5) / places;
+            for (double off : {-1e-9, 1e-9}) cells.look_at(direction(x, off));
+        }
+    }
 }
 
 void take_even_samples(const TestedClosure& closure, std::size_t n, Random& random, Survey& out)
@@ -112,6 +143,7 @@ Survey survey(TestedClosure& closure, const Direction& wo, const Effort& effort,
 
     const auto made = std::make_shared<SphereCells>(wo, scout(closure, random), bin_share);
     SphereCells& cells = *made;
+    if (!out.traits.exact_pdf) look_along_incidence(closure, wo, cells);
     const bool exact = !out.traits.stochastic_eval;
     out.error = cells.integrate(
         [&](const Direction& wi) {

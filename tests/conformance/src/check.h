@@ -11,10 +11,34 @@
 #include "survey.h"
 
 #include <atomic>
+#include <map>
+#include <mutex>
 #include <optional>
 
 REGAIN_NAMESPACE_BEGIN
 namespace conformance {
+
+/// Albedos of references, which all that are compared with one share.
+class ReferenceAlbedos
+{
+public:
+    template <class Simulate>
+    MeanColor of(const std::string& what, const Simulate& simulate)
+    {
+        {
+            const std::lock_guard<std::mutex> lock(_mutex);
+            if (const auto known = _known.find(what); known != _known.end()) return known->second;
+        }
+        // Two that ask at once simulate the same.
+        const MeanColor albedo = simulate();
+        const std::lock_guard<std::mutex> lock(_mutex);
+        return _known.emplace(what, albedo).first->second;
+    }
+
+private:
+    std::mutex _mutex;
+    std::map<std::string, MeanColor> _known;
+};
 
 /// What a check has at hand: one subject, one setting. What is expensive is made when it is first
 /// asked for, and then shared by all checks of the setting.
@@ -24,13 +48,15 @@ public:
     /// second_look: other random numbers, and more of them.
     /// siblings: subjects of its family in the run.
     Bench(const Subject& subject, const Setting& setting, std::size_t siblings,
-          const Options& options, bool second_look, const std::atomic<bool>& stop)
+          const Options& options, bool second_look, const std::atomic<bool>& stop,
+          ReferenceAlbedos& references)
         : _subject(subject),
           _setting(setting),
           _siblings(siblings),
           _options(options),
           _second_look(second_look),
-          _stop(stop)
+          _stop(stop),
+          _references(references)
     {}
 
     const Subject& subject() const { return _subject; }
@@ -49,6 +75,10 @@ public:
 
     /// Random numbers of one check alone, the same in every run.
     Random random(std::string_view check) const;
+    ReferenceAlbedos& references() { return _references; }
+    /// The setting, as it is looked at: what is made for a name is made once.
+    std::string look() const { return _setting.name + (_second_look ? ":second" : ""); }
+    std::uint64_t salt() const { return _options.salt; }
 
     /// Someone asked to stop: a long check returns soon, whatever it then says.
     bool stopped() const { return _stop; }
@@ -60,6 +90,7 @@ private:
     const Options& _options;
     bool _second_look;
     const std::atomic<bool>& _stop;
+    ReferenceAlbedos& _references;
     std::unique_ptr<TestedClosure> _closure;
     std::optional<Survey> _survey;
 };
@@ -109,6 +140,12 @@ std::string shown(const Direction& w);
 std::string shown(const Color& c);
 
 double largest(const Color& c);
+
+/// Of two values, relative to the larger; 1 where one is NaN, 0 where both are next to nothing.
+double difference(double a, double b);
+/// How much eval and pdf change where wi is moved by no more than float or double round it, a few
+/// times: near an upright facet or a critical angle by all of it.
+double rounding_of(const TestedClosure& prepared, const Direction& wi, bool in_double);
 
 }  // namespace conformance
 REGAIN_NAMESPACE_END

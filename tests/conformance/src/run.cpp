@@ -213,7 +213,7 @@ private:
 
     void look(const Job& job)
     {
-        Bench bench(*job.subject, job.setting, job.siblings, _options, false, _stop);
+        Bench bench(*job.subject, job.setting, job.siblings, _options, false, _stop, _references);
         std::optional<Bench> second;
         for (const auto& [check, verdict] : job.checks)
         {
@@ -222,7 +222,8 @@ private:
             if (outcome && check->by_chance && outcome->probability < _level)
             {
                 if (!second)
-                    second.emplace(*job.subject, job.setting, job.siblings, _options, true, _stop);
+                    second.emplace(*job.subject, job.setting, job.siblings, _options, true, _stop,
+                                   _references);
                 outcome = check->run(*second);
             }
             if (outcome && !_stop)
@@ -271,6 +272,7 @@ private:
     double _level;
     std::atomic<std::size_t> _next{0}, _done{0};
     std::atomic<bool> _stop{false};
+    ReferenceAlbedos _references;
     std::mutex _mutex;
     std::exception_ptr _failure;
 };

@@ -30,13 +30,6 @@ Direction partner(const TestedClosure& prepared, Random& random)
     return s.valid && !s.delta ? s.wi : random.direction();
 }
 
-double difference(double a, double b)
-{
-    const double size = std::max(std::abs(a), std::abs(b));
-    if (std::isnan(a) || std::isnan(b)) return 1;
-    return size > 1e-12 ? std::abs(a - b) / size : 0;
-}
-
 // --- C10 ---------------------------------------------------------------------------------------
 
 // f(wo, wi) over what it should be where wo and wi change places: 1, or the squared ratio of
@@ -186,7 +179,8 @@ std::optional<Outcome> symmetries_hold(Bench& bench)
         // One closure may be both.
         other.prepare(wo2);
         const double f2 = other.eval(wi2, Direction(0.5)).y, pdf2 = other.pdf(wi2);
-        const double off = std::max(difference(f, f2), difference(pdf, pdf2));
+        double off = std::max(difference(f, f2), difference(pdf, pdf2));
+        if (off > o.bound) off = std::max(0.0, off - rounding_of(other, wi2, p.in_double));
         if (off <= o.measured) return;
         o.measured = off;
         o.detail = std::string(what) + ": wo " + shown(wo) + ", wi " + shown(wi) + " eval " +

@@ -18,8 +18,8 @@ constexpr int raised = FE_INVALID | FE_DIVBYZERO;
 
 // Closures are made for a few directions each: making one costs more than asking it.
 constexpr std::size_t directions_each = 8;
-// albedo() may integrate.
-constexpr std::size_t albedos_each = 64;
+// albedo() may integrate, and take a thousand walks.
+constexpr std::size_t albedos_each = 512, albedos_of_walks_each = 4096;
 
 bool sane(double x) { return std::isfinite(x) && x >= 0; }
 bool sane(const Color& c) { return sane(c.x) && sane(c.y) && sane(c.z); }
@@ -89,6 +89,7 @@ std::optional<Outcome> survives_anything(Bench& bench)
     const Reads reads = bench.subject().reads();
     Hostile hostile(bench.random("C2"), false);
     const std::size_t n = bench.hostile_inputs();
+    const std::size_t every = bench.traits().stochastic_eval ? albedos_of_walks_each : albedos_each;
     std::size_t faults = 0, asked = 0;
     Outcome o;
     while (asked < n && !bench.stopped())
@@ -102,7 +103,7 @@ std::optional<Outcome> survives_anything(Bench& bench)
         const double unit = p.in_double ? 1e-12 : 1e-6;
         for (std::size_t i = 0; i < directions_each; ++i, ++asked)
         {
-            const Attempt attempt(*closure, hostile, asked % albedos_each == 0, unit);
+            const Attempt attempt(*closure, hostile, asked % every == 0, unit);
             if (!attempt.what().empty() && faults++ == 0)
                 o.detail = attempt.what() + "; " + described(p);
         }

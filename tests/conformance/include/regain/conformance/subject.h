@@ -66,6 +66,8 @@ struct Promises
     /// In float, eval is within this of double, relative, but for one in a thousand; half of all
     /// are within a 200th of it.
     double single = 1e-3;
+    /// albedo() is a mean of samples, and chance moves it by this, in float and in double.
+    double albedo_noise = 0;
 };
 
 /// A distribution of microfacet normals, alone; see regain/closures/distribution.h for what each of

@@ -131,7 +131,9 @@ public:
         if (r.gamma)
         {
             const bool gtr = _spec.distribution == DistributionKind::gtr;
-            r.lowest_gamma = gtr ? gtr_min_gamma : std_min_gamma;
+            // Below 1.7, much of what STD sends anywhere it does by facets so nearly upright that
+            // no number type tells their directions apart, and no quadrature: docs/support.md.
+            r.lowest_gamma = gtr ? gtr_min_gamma : 1.7;
             r.highest_gamma = gtr ? gtr_max_gamma : std_max_gamma;
         }
         r.eta = _spec.lobe == Lobe::dielectric;

@@ -444,7 +444,11 @@ TEST(Tables, values_out_of_range_are_refused)
     luts::TableInfo info;
     info.scale = 1.0 / 65535;
     EXPECT_THROW(luts::Table(info, 2, 1, 1, {0.5f, 1.5f}), std::invalid_argument);
+    EXPECT_THROW(luts::Table(info, 2, 1, 1, {0.5f, -0.5f}), std::invalid_argument);
     EXPECT_THROW(luts::Table(info, 2, 2, 1, {0.5f, 0.5f}), std::invalid_argument);
+    EXPECT_THROW(luts::Table(info, 1, 2, 1, {0.5f, 0.5f}), std::invalid_argument);
+    EXPECT_THROW(luts::Table(info, 2, 0, 1, {}), std::invalid_argument);
+    EXPECT_THROW(luts::Table(info, 2, 1, 0, {}), std::invalid_argument);
     EXPECT_THROW(luts::bake("ggx_E"), std::invalid_argument);
 }
 
@@ -453,6 +457,8 @@ TEST(Tables, baking_can_be_stopped)
     EXPECT_THROW(luts::bake("gtr_E_ss", [](double done) { return done < 0.001; }),
                  luts::BakeStopped);
     EXPECT_THROW(luts::bake("ggx_E_ss", [](double done) { return done < 0.1; }), luts::BakeStopped);
+    EXPECT_THROW(luts::bake("gtr_1.3_E_S_beta_inside", [](double) { return false; }),
+                 luts::BakeStopped);
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <regain/luts/exr.h>
 #include <regain/luts/replace_file.h>
 
+#include "exr_header.h"
+
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfDoubleAttribute.h>
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -15,14 +17,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 REGAIN_NAMESPACE_BEGIN
 namespace luts {
 namespace {
-
-// No table comes near this; a header that says so is broken, and is not worth the memory.
-constexpr int largest_side = 4096;
 
 void insert(Imf::Header& header, const std::string& name, const std::string& value)
 {
@@ -87,6 +87,7 @@ bool fits_half(const Table& table)
 
 Table read(const std::filesystem::path& file)
 {
+    require_header_of_table(file);
     Imf::InputFile in(file.string().c_str());
     const Imf::Header& header = in.header();
 
@@ -98,15 +99,14 @@ Table read(const std::filesystem::path& file)
                                  ", this library reads definition " +
                                  std::to_string(table_definition) + ": bake it again");
     for_each_field(info, [&](const char* name, auto& value) { extract(header, name, value); });
-    if (!(std::isfinite(info.offset) && std::isfinite(info.scale) && info.scale > 0))
+    // Look-ups have them as floats.
+    constexpr double smallest = std::numeric_limits<float>::min(),
+                     largest = std::numeric_limits<float>::max() / 65536;
+    if (!(std::abs(info.offset) <= largest && info.scale >= smallest && info.scale <= largest / 2))
         throw std::runtime_error("its scale and offset are no usable numbers");
 
     const Imath::Box2i window = header.dataWindow();
     const Imath::V2i size = window.max - window.min + Imath::V2i(1);
-    if (size.x < 2 || size.y < 1 || size.x > largest_side || size.y > largest_side)
-        throw std::runtime_error("it has " + std::to_string(size.x) + " x " +
-                                 std::to_string(size.y) + " nodes; 2 x 1 to " +
-                                 std::to_string(largest_side) + " a side are accepted");
     int depth = 1;
     extract(header, "depth", depth);
     if (depth < 1 || size.y % depth != 0)

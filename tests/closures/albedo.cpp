@@ -6,6 +6,10 @@
 #include "../support/closures.h"
 #include "../support/reflection_integral.h"
 
+#include <regain/closures/dielectric_kulla_conty.h>
+#include <regain/closures/kulla_conty.h>
+#include <regain/closures/thin_dielectric.h>
+
 #include <gtest/gtest.h>
 
 using namespace regain;
@@ -67,6 +71,53 @@ TEST(Albedo, compensation_brightens_and_saturates)
     const auto full = compensated(lobe, Method::turquin, luts::ggx_tables()).albedo(wo).reflect;
     EXPECT_GT(full.x, 2 * single.x);
     EXPECT_LT(full.z / full.x, 0.9 * single.z / single.x);
+}
+
+// Compensation gives its tables to a lobe that has none for its albedo, and to no other.
+TEST(Albedo, a_lobe_keeps_tables_of_its_own)
+{
+    const std::uint16_t own_data[8] = {}, given_data[8] = {};
+    const auto microfacet = [](const std::uint16_t* data) {
+        MicrofacetTables t;
+        t.E_ss = t.falloff = t.dip = {data, 2, 2, 1};
+        t.E_avg = {data, 2, 1, 1};
+        return t;
+    };
+    const auto dielectric = [](const std::uint16_t* data) {
+        DielectricTables t;
+        for (int side = 0; side < 2; ++side) t.E[side] = t.R[side] = {data, 2, 2, 2};
+        return t;
+    };
+    const MicrofacetTables own = microfacet(own_data), given = microfacet(given_data);
+    const DielectricTables own_glass = dielectric(own_data), given_glass = dielectric(given_data);
+
+    const WhiteMirror<double> bare = white<double>(0.5, 0.5);
+    WhiteMirror<double> equipped = bare;
+    equipped.set_tables(own);
+    const auto check_mirror = [&](const auto& closure, const std::uint16_t* expected) {
+        EXPECT_EQ(closure.lobe().tables().E_ss.data, expected);
+    };
+    check_mirror(compensated(bare, Method::turquin, given), given_data);
+    check_mirror(compensated(equipped, Method::turquin, given), own_data);
+    check_mirror(kulla_conty(bare, KullaContyForm::series, given), given_data);
+    check_mirror(kulla_conty(equipped, KullaContyForm::series, given), own_data);
+
+    const ThinDielectric<GGX<double>> sheet(GGX<double>(0.5), 1.5);
+    ThinDielectric<GGX<double>> equipped_sheet = sheet;
+    equipped_sheet.set_tables(own);
+    check_mirror(compensated(sheet, Method::turquin, given), given_data);
+    check_mirror(compensated(equipped_sheet, Method::turquin, given), own_data);
+
+    const Dielectric<GGX<double>> glass(GGX<double>(0.5), 1.5);
+    Dielectric<GGX<double>> equipped_glass = glass;
+    equipped_glass.set_tables(own_glass);
+    const auto check_glass = [&](const auto& closure, const std::uint16_t* expected) {
+        EXPECT_EQ(closure.lobe().tables().E[1].data, expected);
+    };
+    check_glass(compensated(glass, Method::turquin, given_glass), given_data);
+    check_glass(compensated(equipped_glass, Method::turquin, given_glass), own_data);
+    check_glass(kulla_conty(glass, given_glass), given_data);
+    check_glass(kulla_conty(equipped_glass, given_glass), own_data);
 }
 
 }  // namespace

@@ -303,6 +303,44 @@ TEST(Std, vectors_of_floats_answer_as_floats)
     }
 }
 
+// Of some lanes the direction is below, of others above, where normals are proposed otherwise.
+TEST(Std, vectors_of_floats_sample_as_floats)
+{
+    Random random(8);
+    constexpr std::size_t lanes = Batch::size;
+    int different = 0, all = 0;
+    for (int n = 0; n < 2000; ++n)
+    {
+        alignas(64) float gamma[lanes], w[3][lanes], u[3][lanes];
+        for (std::size_t i = 0; i < lanes; ++i)
+        {
+            gamma[i] = 1.51f + 0.4f / (random.unit<float>() + 0.01f);
+            const auto wo = direction<float>(1.9 * random.unit() - 0.9, 7 * random.unit());
+            for (int k = 0; k < 3; ++k)
+            {
+                w[k][i] = wo[k];
+                u[k][i] = random.unit<float>();
+            }
+        }
+        const auto load = [](const float(&x)[3][lanes]) {
+            return Vec3<Batch>(Batch::load_aligned(x[0]), Batch::load_aligned(x[1]),
+                               Batch::load_aligned(x[2]));
+        };
+        const STD<Batch> vector(Batch(0.5f), Batch(0.3f), Batch::load_aligned(gamma));
+        const Vec3<Batch> m = vector.visible(load(w)).sample(load(u));
+        for (std::size_t i = 0; i < lanes; ++i, ++all)
+        {
+            const Vec3<float> expected = STD<float>(0.5f, 0.3f, gamma[i])
+                                             .visible({w[0][i], w[1][i], w[2][i]})
+                                             .sample({u[0][i], u[1][i], u[2][i]});
+            const Vec3<float> found(m.x.get(i), m.y.get(i), m.z.get(i));
+            different += !found.equalWithAbsError(expected, 1e-3f);
+        }
+    }
+    // Rounding may take a try in one and refuse it in the other.
+    EXPECT_LT(different, all / 1000);
+}
+
 TEST(Std, hostile_inputs_give_unit_normals_and_finite_areas)
 {
     const float nan = std::numeric_limits<float>::quiet_NaN(),

@@ -39,7 +39,8 @@ public:
         for (int i = 0; i < 8; ++i) raw = raw << 8 | byte();
         double x;
         std::memcpy(&x, &raw, sizeof x);
-        return x;
+        // A NaN is a quiet one: of a signalling one a mere conversion to float traps.
+        return std::isnan(x) ? std::nan("") : x;
     }
     Imath::V3d triple()
     {

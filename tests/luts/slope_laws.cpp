@@ -45,6 +45,22 @@ TEST(SlopeLaw, densities_integrate_to_one)
         }
 }
 
+TEST(SlopeLaw, the_lever_is_the_density_times_the_cube_of_the_slope)
+{
+    for (const char* name : {"ggx", "beckmann", "gtr", "std"})
+        for (double alpha : {1e-3, 0.1, 1.0})
+        {
+            const SlopeLaw law = SlopeLaw::named(name, alpha, 1.7);
+            for (double r : {1e-6, 0.01, 0.3, 2.0, 1e3})
+            {
+                const double expected = law.density(r) * r * r * r;
+                EXPECT_NEAR(law.lever(std::log(r)), expected, 1e-9 * expected)
+                    << name << " " << alpha << " " << r;
+            }
+            EXPECT_TRUE(std::isfinite(law.lever(600)));  // the square of such a slope is not
+        }
+}
+
 // GTR of gamma 1 has an elementary Lambda: with s = cot theta,
 // (sqrt(1 + s^2) - sqrt(a^2 + s^2) - s (ln 1/a + asinh s - asinh s/a)) / (2 s ln 1/a).
 TEST(SlopeLaw, gtr_of_gamma_1_has_its_elementary_lambda)
@@ -74,6 +90,8 @@ TEST(SlopeLaw, families_meet_where_they_are_the_same)
                             SlopeLaw::ggx(1).projected_area(mu), 1e-9);
             EXPECT_NEAR(SlopeLaw::std(alpha, 9e4).projected_area(mu),
                         SlopeLaw::beckmann(alpha).projected_area(mu), 2e-6);
+            EXPECT_EQ(SlopeLaw::std(alpha, 1e5).projected_area(mu),
+                      SlopeLaw::beckmann(alpha).projected_area(mu));
         }
 }
 
@@ -112,6 +130,12 @@ TEST(SlopeLaw, what_is_no_law_is_refused)
     EXPECT_THROW(SlopeLaw::ggx(0), std::invalid_argument);
     EXPECT_THROW(SlopeLaw::std(0.5, 1.5), std::invalid_argument);
     EXPECT_THROW(SlopeLaw::gtr(0.5, -1), std::invalid_argument);
+    const double nan = std::nan("");
+    for (double alpha : {-1.0, 1.01, nan})
+        EXPECT_THROW(SlopeLaw::beckmann(alpha), std::invalid_argument) << alpha;
+    EXPECT_THROW(SlopeLaw::gtr(0.5, 101), std::invalid_argument);
+    EXPECT_THROW(SlopeLaw::gtr(0.5, nan), std::invalid_argument);
+    EXPECT_THROW(SlopeLaw::std(0.5, nan), std::invalid_argument);
     EXPECT_THROW(SlopeLaw::named("phong", 0.5, 1), std::invalid_argument);
 }
 

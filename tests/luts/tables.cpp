@@ -19,8 +19,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
 using namespace regain;
 using namespace regain::tests;
@@ -46,6 +48,21 @@ protected:
             return e.what();
         }
         return "";
+    }
+
+    static std::string bytes_of(const fs::path& path)
+    {
+        std::ifstream in(path, std::ios::binary);
+        return {std::istreambuf_iterator<char>(in), {}};
+    }
+    // A file of these bytes, but for those that follow `after` where it is first.
+    fs::path with_bytes(std::string all, const std::string& after, const std::string& bytes) const
+    {
+        const std::size_t at = all.find(after);
+        EXPECT_NE(at, std::string::npos) << after;
+        all.replace(at + after.size(), bytes.size(), bytes);
+        std::ofstream(file("changed.exr"), std::ios::binary) << all;
+        return file("changed.exr");
     }
 
 private:
@@ -354,6 +371,65 @@ TEST_F(Files, broken_files_say_what_is_wrong)
     EXPECT_NE(error_of(file("stale.exr")).find("bake it again"), std::string::npos);
 }
 
+// Every number of a header that reading goes by, set to what no table has: the file is refused, and
+// before memory is taken for what it says.
+TEST_F(Files, headers_that_no_table_has_are_refused)
+{
+    const std::string good = bytes_of(shipped("ggx_E_avg"));
+    const auto refused_for = [&](const std::string& after, const std::string& bytes) {
+        return error_of(with_bytes(good, after, bytes));
+    };
+    const auto little_endian = [](std::int32_t n) {
+        std::string bytes;
+        for (int i = 0; i < 4; ++i, n >>= 8) bytes.push_back(static_cast<char>(n & 255));
+        return bytes;
+    };
+    const auto attribute = [](const std::string& name, const std::string& type) {
+        return name + '\0' + type + '\0';
+    };
+    const auto contains = [](const std::string& text, const std::string& part) {
+        return text.find(part) != std::string::npos;
+    };
+    ASSERT_EQ(error_of(with_bytes(good, "", "")), "");
+
+    for (const std::int32_t size : {2000000000, 1000000, -1})
+        EXPECT_TRUE(contains(
+            refused_for(attribute("regain:quantity", "string"), little_endian(size)), "file holds"))
+            << size;
+    EXPECT_TRUE(
+        contains(refused_for(attribute("regain:depth", "int"), little_endian(3)), "file holds"));
+    EXPECT_TRUE(
+        contains(refused_for(attribute("channels", "chlist"), little_endian(35)), "file holds"));
+    const std::string window = attribute("dataWindow", "box2i") + little_endian(16);
+    const std::string zero = little_endian(0);
+    for (const auto& [right, bottom] : {std::pair{0, 0}, {5000, 0}, {31, 2000000000}, {31, -1}})
+        EXPECT_TRUE(contains(
+            refused_for(window, zero + zero + little_endian(right) + little_endian(bottom)),
+            "a side are accepted"))
+            << right << " " << bottom;
+    EXPECT_TRUE(
+        contains(refused_for("regain:side" + std::string(1, 0), "stringz"), "no table has"));
+    // The version follows the four bytes that all EXR files begin with.
+    EXPECT_TRUE(contains(refused_for(good.substr(0, 4), little_endian(0x1002)), "several parts"));
+
+    const std::string depth = attribute("regain:depth", "int") + little_endian(4);
+    for (const std::int32_t slices : {0, -1, 3})
+        EXPECT_TRUE(contains(refused_for(depth, little_endian(slices)), "slices")) << slices;
+    const std::string scale = attribute("regain:scale", "double") + little_endian(8);
+    // The last two are numbers, but not as floats, which look-ups take.
+    for (const double number : {0.0, -1.0, HUGE_VAL, std::nan(""), 1e300, 1e-300})
+    {
+        std::string bytes(8, '\0');
+        std::memcpy(bytes.data(), &number, 8);
+        EXPECT_TRUE(contains(refused_for(scale, bytes), "no usable numbers")) << number;
+    }
+    EXPECT_TRUE(contains(refused_for("regain:node", "z"), "has no 'regain:nodes'"));
+    const std::string channels = attribute("channels", "chlist") + little_endian(19);
+    EXPECT_TRUE(contains(refused_for(channels, "Z"), "channel 'Y'"));
+    // 0: a channel of integers.
+    EXPECT_TRUE(contains(refused_for(channels + "Y" + '\0', little_endian(0)), "channel 'Y'"));
+}
+
 TEST_F(Files, unwritable_targets_are_errors_and_leave_nothing)
 {
     const luts::Table table = luts::read_table(shipped("ggx_E_avg"));
@@ -368,7 +444,11 @@ TEST(Tables, values_out_of_range_are_refused)
     luts::TableInfo info;
     info.scale = 1.0 / 65535;
     EXPECT_THROW(luts::Table(info, 2, 1, 1, {0.5f, 1.5f}), std::invalid_argument);
+    EXPECT_THROW(luts::Table(info, 2, 1, 1, {0.5f, -0.5f}), std::invalid_argument);
     EXPECT_THROW(luts::Table(info, 2, 2, 1, {0.5f, 0.5f}), std::invalid_argument);
+    EXPECT_THROW(luts::Table(info, 1, 2, 1, {0.5f, 0.5f}), std::invalid_argument);
+    EXPECT_THROW(luts::Table(info, 2, 0, 1, {}), std::invalid_argument);
+    EXPECT_THROW(luts::Table(info, 2, 1, 0, {}), std::invalid_argument);
     EXPECT_THROW(luts::bake("ggx_E"), std::invalid_argument);
 }
 
@@ -377,6 +457,8 @@ TEST(Tables, baking_can_be_stopped)
     EXPECT_THROW(luts::bake("gtr_E_ss", [](double done) { return done < 0.001; }),
                  luts::BakeStopped);
     EXPECT_THROW(luts::bake("ggx_E_ss", [](double done) { return done < 0.1; }), luts::BakeStopped);
+    EXPECT_THROW(luts::bake("gtr_1.3_E_S_beta_inside", [](double) { return false; }),
+                 luts::BakeStopped);
 }
 
 }  // namespace

@@ -63,23 +63,47 @@ double off(const std::array<Density, 2>& halves, const Density& whole)
     return largest_difference(sum, whole);
 }
 
+// A part of a chart.
+struct Cell
+{
+    ChartPoint corner;
+    double width, height;
+
+    Cell half(bool across_x, int which) const
+    {
+        Cell c = *this;
+        (across_x ? c.width : c.height) *= 0.5;
+        if (which == 1) (across_x ? c.corner.x : c.corner.y) += across_x ? c.width : c.height;
+        return c;
+    }
+};
+
 // Points that are not spread over a cell but gathered in a part of it, where a rule of few nodes
 // may see nothing.
-bool gathered(const std::vector<ChartPoint>& points, const ChartPoint& corner, double size)
+bool gathered(const std::vector<ChartPoint>& points, const Cell& cell)
 {
     if (points.size() < 2) return false;
     std::array<bool, 16> taken{};
+    const auto place = [](double x, double from, double size) {
+        return static_cast<std::size_t>(std::clamp(4 * (x - from) / size, 0.0, 3.0));
+    };
     for (const ChartPoint& p : points)
-    {
-        const auto place = [size](double x, double from) {
-            return static_cast<std::size_t>(std::clamp(4 * (x - from) / size, 0.0, 3.0));
-        };
-        taken[4 * place(p.x, corner.x) + place(p.y, corner.y)] = true;
-    }
+        taken[4 * place(p.x, cell.corner.x, cell.width) + place(p.y, cell.corner.y, cell.height)] =
+            true;
     const auto found = static_cast<double>(std::count(taken.begin(), taken.end(), true));
     // Of 16 boxes, points that fall anywhere leave this many empty.
     const double expected = 16 * (1 - std::pow(15.0 / 16, static_cast<double>(points.size())));
     return found < 0.6 * expected;
+}
+
+// Across which they take less of the cell.
+bool gathered_across_x(const std::vector<ChartPoint>& points, const Cell& cell)
+{
+    const auto by_x = [](const ChartPoint& a, const ChartPoint& b) { return a.x < b.x; };
+    const auto by_y = [](const ChartPoint& a, const ChartPoint& b) { return a.y < b.y; };
+    const auto x = std::minmax_element(points.begin(), points.end(), by_x);
+    const auto y = std::minmax_element(points.begin(), points.end(), by_y);
+    return (x.second->x - x.first->x) / cell.width <= (y.second->y - y.first->y) / cell.height;
 }
 
 std::array<std::vector<ChartPoint>, 4> quartered(const std::vector<ChartPoint>& points,
@@ -252,23 +276,26 @@ double SphereCells::integrate(const std::function<Density(const Direction&)>& f,
     std::vector<Piece> pieces;  // a heap, the worst first
     std::vector<Piece> done;
     double error = 0;
-    const std::function<void(std::size_t, const ChartPoint&, double,
-                             const std::vector<ChartPoint>&)>
-        begin = [&](std::size_t bin, const ChartPoint& corner, double size,
-                    const std::vector<ChartPoint>& points) {
-            if (!gathered(points, corner, size) || size < smallest)
+    const std::function<void(std::size_t, const Cell&, const std::vector<ChartPoint>&)> begin =
+        [&](std::size_t bin, const Cell& cell, const std::vector<ChartPoint>& points) {
+            if (!gathered(points, cell) || std::min(cell.width, cell.height) < smallest)
             {
-                pieces.push_back(piece(bin, corner, size, size, over(corner, size, size)));
+                pieces.push_back(piece(bin, cell.corner, cell.width, cell.height,
+                                       over(cell.corner, cell.width, cell.height)));
                 error += pieces.back().error;
                 return;
             }
-            const auto parts = quartered(points, corner, 0.5 * size);
-            for (int q = 0; q < 4; ++q)
-                begin(bin, quarter_of(corner, 0.5 * size, q), 0.5 * size,
-                      parts[static_cast<std::size_t>(q)]);
+            const bool across_x = gathered_across_x(points, cell);
+            const Cell low = cell.half(across_x, 0), high = cell.half(across_x, 1);
+            std::vector<ChartPoint> below, above;
+            for (const ChartPoint& p : points)
+                (across_x ? p.x < high.corner.x : p.y < high.corner.y) ? below.push_back(p)
+                                                                       : above.push_back(p);
+            begin(bin, low, below);
+            begin(bin, high, above);
         };
     for (std::size_t b = 0; b < _bins.size(); ++b)
-        begin(b, _bins[b].corner, _bins[b].size, _points[b]);
+        begin(b, {_bins[b].corner, _bins[b].size, _bins[b].size}, _points[b]);
     std::make_heap(pieces.begin(), pieces.end());
     while (!pieces.empty() && error > tolerance && asked < most)
     {

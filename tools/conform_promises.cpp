@@ -84,9 +84,12 @@ Promises promises_of(const ClosureSpec& spec, const Imath::V3d& wo)
         if (!isotropic) p.albedo = std::nullopt;
         return p;
     }
-    // Without tables albedo() is a mean of samples, and of what takes three numbers by chance.
+    // Without tables albedo() is a mean of samples: docs/support.md, "How exact".
     if (spec.lobe == Lobe::dielectric && shaders::has_gamma(spec.distribution))
-        p.albedo = 1.5e-2, p.albedo_noise = 2.5e-2;
+    {
+        p.albedo = spec.distribution == DistributionKind::std ? 1.5e-2 : 1e-2;
+        p.albedo_noise = *p.albedo;
+    }
     // How much of what an interface sends back and on is reflected.
     if (glass && spec.interface.mode != ScatterMode::RT) p.albedo = 0.05;
     p.tint = isotropic && !glass ? tint_of(spec.method, spec.distribution) : std::nullopt;
@@ -108,9 +111,12 @@ Promises promises_of(const ClosureSpec& spec, const Imath::V3d& wo)
     }
     else if (compensates)
         p.surplus = p.furnace;
-    // The bare lobe's weights are at most 1; those of an added lobe at most 1.6 times what it
-    // returns.
-    if (compensates) p.weight = std::max(largest_gain(spec, wo), adds ? 1.6 : 1.0);
+    // The bare lobe's weights are at most 1; those of an added lobe at most 1.4 times what it
+    // returns, or of Beckmann's beta form 1.6.
+    const bool beckmann_beta = glass && spec.distribution == DistributionKind::beckmann &&
+                               spec.interface.shadowing == TransmissionShadowing::beta;
+    const double added = beckmann_beta ? 1.6 : 1.4;
+    if (compensates) p.weight = std::max(largest_gain(spec, wo), adds ? added : 1.0);
     return p;
 }
 

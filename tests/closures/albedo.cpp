@@ -7,7 +7,9 @@
 #include "../support/reflection_integral.h"
 
 #include <regain/closures/dielectric_kulla_conty.h>
+#include <regain/closures/gtr.h>
 #include <regain/closures/kulla_conty.h>
+#include <regain/closures/std.h>
 #include <regain/closures/thin_dielectric.h>
 
 #include <gtest/gtest.h>
@@ -63,6 +65,43 @@ TEST(Albedo, without_tables_is_integrated)
 }
 
 // Eq. 16 keeps the tint of gold between F and F^2, so compensation saturates.
+// Of normals that take three numbers, against independent samples; an interface has its choice of
+// lobe to take one, too.
+template <class Closure>
+void expect_sampled_albedo(const Closure& closure, const Vec3<double>& wo, double bound)
+{
+    const auto prepared = closure.prepare(wo);
+    Random random(12);
+    constexpr int n = 1 << 17;  // an error of 1.4e-3 at most
+    double reflect = 0, transmit = 0;
+    for (int i = 0; i < n; ++i)
+    {
+        const double x = random.unit(), y = random.unit();
+        const Sample<double> s = prepared.sample(Vec3<double>(x, y, random.unit()));
+        (s.transmitted ? transmit : reflect) += s.weight.x / n;
+    }
+    const Albedo<double> albedo = prepared.albedo();
+    EXPECT_NEAR(albedo.reflect.x, reflect, bound) << wo;
+    EXPECT_NEAR(albedo.transmit.x, transmit, bound) << wo;
+}
+
+TEST(Albedo, without_tables_is_near_that_of_samples_of_long_tails)
+{
+    for (double gamma : {1.7, 3.0})
+        for (double alpha : {0.05, 1.0})
+            for (double mu : {-0.8, -0.1, 0.1, 0.8})
+            {
+                const auto wo = direction<double>(mu);
+                const GTR<double> gtr(alpha, gamma);
+                const STD<double> student(alpha, gamma);
+                expect_sampled_albedo(Dielectric<GTR<double>>(gtr, 1.5), wo, 1e-2);
+                expect_sampled_albedo(Dielectric<STD<double>>(student, 1.5), wo, 1.5e-2);
+                expect_sampled_albedo(ThinDielectric<GTR<double>>(gtr, 1.5), wo, 1e-2);
+                expect_sampled_albedo(ThinDielectric<STD<double>>(student, 1.5), wo, 1.5e-2);
+                expect_sampled_albedo(Dielectric<GTR<double>>(gtr, 1.5, ScatterMode::T), wo, 1e-2);
+            }
+}
+
 TEST(Albedo, compensation_brightens_and_saturates)
 {
     const auto wo = direction<double>(0.7);

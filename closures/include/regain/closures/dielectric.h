@@ -237,7 +237,7 @@ public:
         {
             Prepared lobe = *this;
             lobe._lobe._mode = mode;
-            return detail::mean_weight<Real>(lobe);
+            return detail::mean_weight<Real>(lobe, detail::grid_rows<Distribution>);
         }
 
         // A lobe that only reflects may leave out the normals that reflect below the horizon.

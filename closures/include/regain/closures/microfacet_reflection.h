@@ -120,7 +120,7 @@ public:
         {
             const MicrofacetTables& t = _lobe._tables;
             if (t.E_ss && t.falloff && t.dip) return {tabulated_albedo(), Color(Real(0))};
-            return detail::mean_weight<Real>(*this);
+            return detail::mean_weight<Real>(*this, detail::grid_rows<Distribution>);
         }
 
     private:

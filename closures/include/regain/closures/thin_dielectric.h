@@ -146,7 +146,8 @@ public:
         {
             // The share that is reflected by the mirror's own facets, and all of it by its table.
             const bool tabulated = bool(_tables.E_ss);
-            const int n = tabulated ? 16 : 32;
+            constexpr int rows = detail::grid_rows<Distribution>;
+            const int n = tabulated ? rows / 2 : rows;
             Real all(0), reflected(0);
             for (int j = 0; j < n; ++j)
                 for (int i = 0; i < n; ++i)

@@ -48,8 +48,7 @@ public:
     std::int32_t number()
     {
         std::array<char, 4> bytes;
-        require(rest() >= 4);
-        _in.read(bytes.data(), 4);
+        require(rest() >= 4 && bool(_in.read(bytes.data(), 4)));
         std::uint32_t n = 0;
         for (std::size_t i = 4; i > 0; --i) n = n << 8 | static_cast<unsigned char>(bytes[i - 1]);
         return static_cast<std::int32_t>(n);
@@ -96,6 +95,8 @@ void skip_channels(Reader& in, std::int64_t size)
 void require_header_of_table(const std::filesystem::path& file)
 {
     constexpr std::int32_t magic = 20000630, several_parts = 0x1000;
+    // A folder can be opened, and has no end.
+    if (!std::filesystem::is_regular_file(file)) return;
     Reader in(file);
     if (in.size() < 8 || in.number() != magic) return;
     if (in.number() & several_parts) throw std::runtime_error("it has several parts");

@@ -78,6 +78,62 @@ TEST(KitSphereCells, the_cosine_integrates_to_pi)
     EXPECT_NEAR(sum(cells), pi, 1e-9);
 }
 
+// A ring that begins at once, z0 below the horizon's side: (z - z0)^-0.6 above z0, nothing below,
+// as of upright facets with a long tail. Its integral is elementary.
+TEST(KitSphereCells, a_singular_ring_is_integrated_wherever_cells_end)
+{
+    for (double z0 : {0.02, 0.1234, 0.4999, 0.5001, 0.75})
+    {
+        SphereCells cells(direction(1, 0, 0.3), {}, 1);
+        const double error = cells.integrate(
+            [&](const Direction& w) {
+                return Density{w.z > z0 ? std::pow(w.z - z0, -0.6) : 0, Color(0.0)};
+            },
+            1e-4, 1 << 20);
+        const double exact = 2 * pi * std::pow(1 - z0, 0.4) / 0.4;
+        EXPECT_LE(error, 1e-4) << z0;
+        EXPECT_NEAR(sum(cells), exact, 1e-3 * exact) << z0;
+    }
+}
+
+// Most of a lobe is in one chart, of which samples tell; the rest begins in the corner of a large
+// cell of another, where hardly any fall.
+TEST(KitSphereCells, what_reaches_into_a_neighbour_is_seen)
+{
+    const Direction wo = direction(1, 0, 0.5);
+    for (double tilt : {1e-4, 5e-4, 2e-3})
+    {
+        // Just beside the plane of incidence, and just above the horizon.
+        const Lobe lobe{direction(1, tilt, tilt), 1e6};
+        std::vector<Direction> one_side;
+        for (const Direction& w : lobe.samples(1 << 14))
+            if (w.y > 0 && w.z > 0) one_side.push_back(w);
+        SphereCells cells(wo, one_side, 1.0 / 256);
+        cells.integrate(
+            [&](const Direction& w) {
+                return Density{lobe(w), Color(0.0)};
+            },
+            1e-5, 1 << 20);
+        EXPECT_NEAR(sum(cells), 1, 1e-4) << tilt;
+    }
+}
+
+TEST(KitSphereCells, what_no_direction_tells_of_is_seen_where_it_is_looked_for)
+{
+    const Lobe lobe{direction(0.3, -0.4, 0.1), 1e8};
+    SphereCells cells(direction(0.3, -0.4, 0.6), Lobe{direction(1, 1, 1), 10}.samples(1 << 12),
+                      1.0 / 64);
+    const std::size_t bins = cells.bins().size();
+    for (const Direction& w : lobe.samples(64)) cells.look_at(w);
+    EXPECT_EQ(cells.bins().size(), bins);
+    cells.integrate(
+        [&](const Direction& w) {
+            return Density{lobe(w), Color(0.0)};
+        },
+        1e-5, 1 << 20);
+    EXPECT_NEAR(sum(cells), 1, 1e-4);
+}
+
 // Wider and narrower than a cell, across a pole, a horizon and the seam of azimuths. About the
 // pole, where cells are long, no narrower than a surface of alpha 1e-3 looked at straight on, and
 // to the tolerance of a commit; elsewhere to that of a thorough run.

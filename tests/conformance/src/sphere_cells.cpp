@@ -178,7 +178,7 @@ void SphereCells::look_beyond_borders()
 {
     std::vector<ChartPoint> mirrored;
     for (std::size_t b = 0; b < _bins.size(); ++b)
-        for (const ChartPoint& p : _points[b])
+        for (const ChartPoint& p : _clues[b][drawn])
             for (int border = 0; border < 4; ++border)
             {
                 const double far = border & 1 ? _bins[b].size : 0;
@@ -189,13 +189,13 @@ void SphereCells::look_beyond_borders()
                     q.y = 2 * (_bins[b].corner.y + far) - p.y;
                 if (q.x >= 0) mirrored.push_back(wrapped(q));
             }
-    for (const ChartPoint& q : mirrored) _points[bin_of(q)].push_back(q);
+    for (const ChartPoint& q : mirrored) _clues[bin_of(q)][drawn].push_back(q);
 }
 
 void SphereCells::look_at(const Direction& w)
 {
     const ChartPoint p = _charts.place_of(w);
-    _points[bin_of(p)].push_back(p);
+    _clues[bin_of(p)][looked_at].push_back(p);
 }
 
 void SphereCells::grow(std::size_t node, std::vector<ChartPoint> points, std::size_t most,
@@ -205,7 +205,7 @@ void SphereCells::grow(std::size_t node, std::vector<ChartPoint> points, std::si
     {
         _nodes[node].bin = static_cast<int>(_bins.size());
         _bins.push_back({_nodes[node].corner, _nodes[node].size, {}, 0});
-        _points.push_back(std::move(points));
+        _clues.push_back({std::move(points), {}});
         return;
     }
     const ChartPoint corner = _nodes[node].corner;
@@ -276,26 +276,30 @@ double SphereCells::integrate(const std::function<Density(const Direction&)>& f,
     std::vector<Piece> pieces;  // a heap, the worst first
     std::vector<Piece> done;
     double error = 0;
-    const std::function<void(std::size_t, const Cell&, const std::vector<ChartPoint>&)> begin =
-        [&](std::size_t bin, const Cell& cell, const std::vector<ChartPoint>& points) {
-            if (!gathered(points, cell) || std::min(cell.width, cell.height) < smallest)
+    const std::function<void(std::size_t, const Cell&, const Clues&)> begin =
+        [&](std::size_t bin, const Cell& cell, const Clues& clues) {
+            const auto found = std::find_if(clues.begin(), clues.end(), [&](const auto& points) {
+                return gathered(points, cell);
+            });
+            if (found == clues.end() || std::min(cell.width, cell.height) < smallest)
             {
                 pieces.push_back(piece(bin, cell.corner, cell.width, cell.height,
                                        over(cell.corner, cell.width, cell.height)));
                 error += pieces.back().error;
                 return;
             }
-            const bool across_x = gathered_across_x(points, cell);
+            const bool across_x = gathered_across_x(*found, cell);
             const Cell low = cell.half(across_x, 0), high = cell.half(across_x, 1);
-            std::vector<ChartPoint> below, above;
-            for (const ChartPoint& p : points)
-                (across_x ? p.x < high.corner.x : p.y < high.corner.y) ? below.push_back(p)
-                                                                       : above.push_back(p);
-            begin(bin, low, below);
-            begin(bin, high, above);
+            std::array<Clues, 2> parts;
+            for (std::size_t clue = 0; clue < clues.size(); ++clue)
+                for (const ChartPoint& p : clues[clue])
+                    parts[across_x ? p.x >= high.corner.x : p.y >= high.corner.y][clue].push_back(
+                        p);
+            begin(bin, low, parts[0]);
+            begin(bin, high, parts[1]);
         };
     for (std::size_t b = 0; b < _bins.size(); ++b)
-        begin(b, {_bins[b].corner, _bins[b].size, _bins[b].size}, _points[b]);
+        begin(b, {_bins[b].corner, _bins[b].size, _bins[b].size}, _clues[b]);
     std::make_heap(pieces.begin(), pieces.end());
     while (!pieces.empty() && error > tolerance && asked < most)
     {

@@ -14,6 +14,7 @@
 
 #include <regain/conformance/tested_closure.h>
 
+#include <array>
 #include <functional>
 #include <vector>
 
@@ -90,6 +91,11 @@ private:
 
     struct Piece;
 
+    // Where to look closely: at the lobe's directions and their images beyond borders, and at what
+    // look_at was told. Apart, since a few narrow ones would not be noticed among many others.
+    enum Clue { drawn, looked_at };
+    using Clues = std::array<std::vector<ChartPoint>, 2>;
+
     void grow(std::size_t node, std::vector<ChartPoint> points, std::size_t most, int depth);
     void look_beyond_borders();
     std::size_t bin_of(const ChartPoint& p) const;
@@ -97,7 +103,7 @@ private:
     Charts _charts;
     std::vector<Node> _nodes;  // the charts first
     std::vector<Bin> _bins;
-    std::vector<std::vector<ChartPoint>> _points;  // in each bin, where to look closely
+    std::vector<Clues> _clues;  // of each bin
 };
 
 }  // namespace conformance

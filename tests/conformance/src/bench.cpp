@@ -49,10 +49,10 @@ const Survey& Bench::survey()
     return *_survey;
 }
 
-Random Bench::random(std::string_view check) const
+std::string Bench::name_of(const Subject& subject, std::string_view check) const
 {
-    const std::string name = _subject.name() + ":" + std::string(check) + ":" + look();
-    return Random(hash_of(name, _options.salt));
+    return subject.name() + ":" + std::string(check) + ":" + _setting.name +
+           (_second_look ? ":second" : "");
 }
 
 Outcome Outcome::within(double measured, double bound, std::string detail)
@@ -98,28 +98,6 @@ double largest(const Color& c)
 {
     const double most = std::max({std::abs(c.x), std::abs(c.y), std::abs(c.z)});
     return std::isnan(c.x) || std::isnan(c.y) || std::isnan(c.z) ? std::nan("") : most;
-}
-
-double difference(double a, double b)
-{
-    const double size = std::max(std::abs(a), std::abs(b));
-    if (std::isnan(a) || std::isnan(b)) return 1;
-    return size > 1e-12 ? std::abs(a - b) / size : 0;
-}
-
-double rounding_of(const TestedClosure& prepared, const Direction& wi, bool in_double)
-{
-    const double f = prepared.eval(wi, Direction(0.5)).y, pdf = prepared.pdf(wi);
-    // A few times, on its way from wo and wi to a facet.
-    const double step = in_double ? 0x1p-50 : 0x1p-21;
-    double most = 0;
-    for (double by : {1 - step, 1 + step})
-    {
-        const Direction near(wi.x, wi.y, wi.z * by);
-        most = std::max({most, difference(prepared.eval(near, Direction(0.5)).y, f),
-                         difference(prepared.pdf(near), pdf)});
-    }
-    return most;
 }
 
 }  // namespace conformance

@@ -7,38 +7,15 @@
 #pragma once
 
 #include "random.h"
+#include "reference_albedos.h"
 #include "settings.h"
 #include "survey.h"
 
 #include <atomic>
-#include <map>
-#include <mutex>
 #include <optional>
 
 REGAIN_NAMESPACE_BEGIN
 namespace conformance {
-
-/// Albedos of references, which all that are compared with one share.
-class ReferenceAlbedos
-{
-public:
-    template <class Simulate>
-    MeanColor of(const std::string& what, const Simulate& simulate)
-    {
-        {
-            const std::lock_guard<std::mutex> lock(_mutex);
-            if (const auto known = _known.find(what); known != _known.end()) return known->second;
-        }
-        // Two that ask at once simulate the same.
-        const MeanColor albedo = simulate();
-        const std::lock_guard<std::mutex> lock(_mutex);
-        return _known.emplace(what, albedo).first->second;
-    }
-
-private:
-    std::mutex _mutex;
-    std::map<std::string, MeanColor> _known;
-};
 
 /// What a check has at hand: one subject, one setting. What is expensive is made when it is first
 /// asked for, and then shared by all checks of the setting.
@@ -74,16 +51,29 @@ public:
     const Parameters& parameters() const { return _setting.parameters; }
 
     /// Random numbers of one check alone, the same in every run.
-    Random random(std::string_view check) const;
-    ReferenceAlbedos& references() { return _references; }
-    /// The setting, as it is looked at: what is made for a name is made once.
-    std::string look() const { return _setting.name + (_second_look ? ":second" : ""); }
-    std::uint64_t salt() const { return _options.salt; }
+    Random random(std::string_view check) const { return random_of(name_of(_subject, check)); }
+
+    /// What the reference's albedo is measured to be: by simulate(closure, random numbers), for all
+    /// that have this reference once.
+    template <class Simulate>
+    MeanColor reference_albedo(const Simulate& simulate) const
+    {
+        const Subject& reference = *_subject.reference();
+        const std::string name = name_of(reference, "reference");
+        return _references.of(name, [&] {
+            const auto closure = reference.make(_setting.parameters);
+            closure->prepare(_setting.wo);
+            return simulate(*closure, random_of(name));
+        });
+    }
 
     /// Someone asked to stop: a long check returns soon, whatever it then says.
     bool stopped() const { return _stop; }
 
 private:
+    std::string name_of(const Subject& subject, std::string_view check) const;
+    Random random_of(const std::string& name) const { return Random(hash_of(name, _options.salt)); }
+
     const Subject& _subject;
     const Setting& _setting;
     std::size_t _siblings;
@@ -140,12 +130,6 @@ std::string shown(const Direction& w);
 std::string shown(const Color& c);
 
 double largest(const Color& c);
-
-/// Of two values, relative to the larger; 1 where one is NaN, 0 where both are next to nothing.
-double difference(double a, double b);
-/// How much eval and pdf change where wi is moved by no more than float or double round it, a few
-/// times: near an upright facet or a critical angle by all of it.
-double rounding_of(const TestedClosure& prepared, const Direction& wi, bool in_double);
 
 }  // namespace conformance
 REGAIN_NAMESPACE_END

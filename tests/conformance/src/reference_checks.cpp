@@ -4,6 +4,7 @@
 // C9, C14, C15: against something else: all bounces simulated, the other precision, exact tables.
 
 #include "check.h"
+#include "rounding.h"
 
 #include <algorithm>
 #include <cmath>
@@ -79,16 +80,12 @@ std::optional<Outcome> tint_is_that_of_all_bounces(Bench& bench)
     // White mirrors are for C8; what glass reflects and what it passes is never white.
     const bool glass = bench.subject().reads().eta;
     if (!bound || (p.reflectance == Reflectance::white && !glass)) return std::nullopt;
-    const Subject& reference = *bench.subject().reference();
-    const std::string name = reference.name() + ":C9 reference:" + bench.look();
     const MeanColor is =
         sampled_albedo(bench.closure(), bench.effort().even_samples, bench.random("C9"));
-    const MeanColor should = bench.references().of(name, [&] {
-        const auto closure = reference.make(p);
-        closure->prepare(bench.setting().wo);
-        return sampled_albedo(*closure, 2 * bench.effort().even_samples,
-                              Random(hash_of(name, bench.salt())));
-    });
+    const MeanColor should =
+        bench.reference_albedo([&](const TestedClosure& reference, const Random& random) {
+            return sampled_albedo(reference, 2 * bench.effort().even_samples, random);
+        });
     Outcome worst;
     worst.bound = *bound;
     const auto compare = [&](const std::array<RunningMean, 3>& found,

@@ -4,6 +4,7 @@
 // C10, C12: what does not change when directions change places, or turn together.
 
 #include "check.h"
+#include "rounding.h"
 
 #include <algorithm>
 #include <cmath>

@@ -44,10 +44,12 @@ struct Density
 {
     double pdf = 0;
     Color value{0.0};
+    double unsure = 0;  ///< of pdf; no cell halves for it
 
     void add(const Density& other, double weight)
     {
         pdf += other.pdf * weight;
+        unsure += other.unsure * weight;
         value += other.value * weight;
     }
 };

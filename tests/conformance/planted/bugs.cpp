@@ -14,9 +14,9 @@ namespace {
 
 template <class Fault>
 Bug bug(const char* name, const char* check, PlantedSubject (*subject)(Fault, const std::string&),
-        Fault fault, const char* setting = "")
+        Fault fault, const char* setting = "", Tier tier = Tier::commit)
 {
-    return {name, check, [=](const std::string& id) { return subject(fault, id); }, setting};
+    return {name, check, [=](const std::string& id) { return subject(fault, id); }, setting, tier};
 }
 
 }  // namespace
@@ -57,7 +57,8 @@ const std::vector<Bug>& bugs()
         bug("total_reflection_ignored", "C9", glass, G::total_reflection_ignored, inside),
         bug("lobe_probability_missing", "C4", glass, G::lobe_probability_missing, outside),
         bug("pdf_a_fiftieth_too_high", "C4", mirror, M::pdf_a_fiftieth_too_high, rough),
-        bug("pdf_of_one_lobe_a_fiftieth_too_high", "C4", glass, G::reflected_pdf_too_high, outside),
+        bug("pdf_of_one_lobe_a_fiftieth_too_high", "C4", glass, G::reflected_pdf_too_high, outside,
+            Tier::thorough),
         bug("fresnel_of_the_normal", "C9", mirror, M::fresnel_of_the_normal, grazing),
         bug("fresnel_of_the_normal_in_glass", "C10", glass, G::fresnel_of_the_normal, pair_outside),
         bug("cosine_kept_from_grazing", "C9", mirror, M::cosine_kept_from_grazing, grazing),

@@ -9,18 +9,24 @@
 
 #include "planted_subject.h"
 
+#include <regain/conformance/run.h>
+
 #include <vector>
 
 namespace regain::planted {
+
+using conformance::Tier;
 
 struct Bug
 {
     std::string name;
     std::string check;
     std::function<PlantedSubject(const std::string& name)> subject;
-    /// One setting of the commit tier in which it shows, or empty: all of them. Tests look there
-    /// alone, which is what keeps them short.
+    /// One setting in which it shows, or empty: all of them. Tests look there alone, which is what
+    /// keeps them short.
     std::string setting;
+    /// What shows in the commit tier shows in the thorough one, too.
+    Tier tier = Tier::commit;
 };
 
 const std::vector<Bug>& bugs();

@@ -42,6 +42,7 @@ public:
         Options options;
         options.checks = {_bug.check};
         options.setting = _bug.setting;
+        options.tier = _bug.tier;
         const PlantedSubject subject = _bug.subject(_bug.name);
         const Report report = run({subject.get()}, options);
         ASSERT_EQ(report.verdicts.size(), 1u);

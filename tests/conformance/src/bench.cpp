@@ -14,22 +14,34 @@ namespace {
 
 constexpr std::size_t second_look_factor = 16;
 
+// What the closure's weights are of those without the gain, per channel.
+Color gain_of(const TestedClosure& closure, const TestedClosure& bare, Random random)
+{
+    Color gain(1.0), most(0.0);
+    for (int i = 0; i < 64; ++i)
+    {
+        const Direction u = random.cube();
+        const Color with = closure.sample(u).weight, without = bare.sample(u).weight;
+        for (int c = 0; c < 3; ++c)
+            if (without[c] > most[c]) most[c] = without[c], gain[c] = with[c] / without[c];
+    }
+    return gain;
+}
+
 }  // namespace
 
 Effort Bench::effort() const
 {
+    // The thorough tier has ten times the settings; what a setting costs cannot grow much.
     Effort e;
-    if (tier() == Tier::thorough)
-    {
-        e = e.times(8);
-    }
+    if (tier() == Tier::thorough) e.even_samples *= 2;
     return _second_look ? e.times(second_look_factor) : e;
 }
 
 std::size_t Bench::hostile_inputs() const
 {
-    const std::size_t family = tier() == Tier::commit ? 1'000'000 : 100'000'000;
-    return family / std::max<std::size_t>(1, _siblings) + 1;
+    const double family = tier() == Tier::commit ? 1e6 : 1e8;
+    return static_cast<std::size_t>(std::ceil(family * _share));
 }
 
 TestedClosure& Bench::closure()
@@ -42,10 +54,39 @@ TestedClosure& Bench::closure()
     return *_closure;
 }
 
+Survey Bench::new_survey(const Subject& subject, TestedClosure& closure) const
+{
+    return conformance::survey(closure, _setting.wo, parameters().in_double, effort(),
+                               random_of(name_of(subject, "survey")).bits());
+}
+
+Survey Bench::survey_of_gain()
+{
+    const Subject& subject = *_subject.bare();
+    const auto bare = subject.make(parameters());
+    bare->prepare(_setting.wo);
+    Survey s = _memory.surveys.of(name_of(subject, "survey"), [&] {
+        Survey fresh = new_survey(subject, *bare);
+        fresh.cells = nullptr;
+        return fresh;
+    });
+    s.traits = traits();
+    s.scale_by(gain_of(closure(), *bare, random("gain")));
+    return s;
+}
+
 const Survey& Bench::survey()
 {
-    if (!_survey)
-        _survey = conformance::survey(closure(), _setting.wo, effort(), random("survey").bits());
+    if (_survey) return *_survey;
+    if (_subject.form() == Form::gain && _subject.bare()) return _survey.emplace(survey_of_gain());
+    _survey = new_survey(_subject, closure());
+    // For gains on it.
+    if (_subject.form() == Form::none)
+        _memory.surveys.of(name_of(_subject, "survey"), [&] {
+            Survey energies = *_survey;
+            energies.cells = nullptr;
+            return energies;
+        });
     return *_survey;
 }
 

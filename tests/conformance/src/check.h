@@ -7,7 +7,7 @@
 #pragma once
 
 #include "random.h"
-#include "reference_albedos.h"
+#include "remembered.h"
 #include "settings.h"
 #include "survey.h"
 
@@ -23,17 +23,16 @@ class Bench
 {
 public:
     /// second_look: other random numbers, and more of them.
-    /// siblings: subjects of its family in the run.
-    Bench(const Subject& subject, const Setting& setting, std::size_t siblings,
-          const Options& options, bool second_look, const std::atomic<bool>& stop,
-          ReferenceAlbedos& references)
+    /// share: the subject's part in the hostile inputs of its family.
+    Bench(const Subject& subject, const Setting& setting, double share, const Options& options,
+          bool second_look, const std::atomic<bool>& stop, Memory& memory)
         : _subject(subject),
           _setting(setting),
-          _siblings(siblings),
+          _share(share),
           _options(options),
           _second_look(second_look),
           _stop(stop),
-          _references(references)
+          _memory(memory)
     {}
 
     const Subject& subject() const { return _subject; }
@@ -46,6 +45,8 @@ public:
     /// The closure of the setting, prepared for its direction.
     TestedClosure& closure();
     Traits traits() { return closure().traits(); }
+    /// Of a gain it is that of the lobe which it scales, scaled: C16 finds that nothing else is
+    /// different.
     const Survey& survey();
     Promises promises() const { return _subject.promises(_setting.parameters, _setting.wo); }
     const Parameters& parameters() const { return _setting.parameters; }
@@ -60,7 +61,7 @@ public:
     {
         const Subject& reference = *_subject.reference();
         const std::string name = name_of(reference, "reference");
-        return _references.of(name, [&] {
+        return _memory.reference_albedos.of(name, [&] {
             const auto closure = reference.make(_setting.parameters);
             closure->prepare(_setting.wo);
             return simulate(*closure, random_of(name));
@@ -71,16 +72,18 @@ public:
     bool stopped() const { return _stop; }
 
 private:
+    Survey new_survey(const Subject& subject, TestedClosure& closure) const;
+    Survey survey_of_gain();
     std::string name_of(const Subject& subject, std::string_view check) const;
     Random random_of(const std::string& name) const { return Random(hash_of(name, _options.salt)); }
 
     const Subject& _subject;
     const Setting& _setting;
-    std::size_t _siblings;
+    double _share;
     const Options& _options;
     bool _second_look;
     const std::atomic<bool>& _stop;
-    ReferenceAlbedos& _references;
+    Memory& _memory;
     std::unique_ptr<TestedClosure> _closure;
     std::optional<Survey> _survey;
 };

@@ -29,7 +29,7 @@ std::optional<Outcome> traits_are_true(Bench& bench)
     const Traits traits = closure.traits();
     const Direction wo = bench.setting().wo;
     Random random = bench.random("C0");
-    const int n = bench.tier() == Tier::commit ? 1000 : 20000;
+    const int n = bench.tier() == Tier::commit ? 500 : 1000;
     std::string what;
     const auto complain = [&](const std::string& text) {
         if (what.empty()) what = text;
@@ -91,7 +91,7 @@ std::optional<Outcome> a_gain_scales_and_nothing_else(Bench& bench)
     const auto bare = bench.subject().bare()->make(bench.parameters());
     bare->prepare(bench.setting().wo);
     Random random = bench.random("C16");
-    const int n = bench.tier() == Tier::commit ? 1000 : 20000;
+    const int n = bench.tier() == Tier::commit ? 1000 : 2000;
     Outcome o;
     o.bound = bench.parameters().in_double ? 1e-12 : 1e-5;
     std::string what;

@@ -148,7 +148,7 @@ private:
 
     Energies energies(const Parameters& p, const Direction& wo)
     {
-        constexpr std::size_t groups = 16, each = 1024;
+        constexpr std::size_t groups = 16, each = 512;
         const auto closure = _bench.subject().make(p);
         closure->prepare(wo);
         Random random = _bench.random("C11");

@@ -31,7 +31,7 @@ struct Job
 {
     const Subject* subject;
     Setting setting;
-    std::size_t siblings;
+    double share;  // in the hostile inputs of the subject's family
     std::vector<std::pair<const Check*, std::size_t>> checks;  // and the verdict each adds to
 };
 
@@ -81,11 +81,15 @@ void require_usable_names(const std::vector<const Subject*>& subjects)
         throw std::invalid_argument("two subjects are called '" + *twice + "'");
 }
 
+// Of hostile inputs: a walk may take thousands of steps where others take one.
+double appetite(const Traits& traits) { return traits.stochastic_eval ? 0.05 : 1; }
+
 Plan plan(const std::vector<const Subject*>& subjects, const Options& options)
 {
     Plan p;
-    std::map<std::string, std::size_t> family_size;
-    for (const Subject* subject : subjects) ++family_size[subject->family()];
+    std::map<std::string, double> family_appetite;
+    for (const Subject* subject : subjects)
+        family_appetite[subject->family()] += appetite(subject->make({})->traits());
     const bool is_whole_name = std::any_of(subjects.begin(), subjects.end(), [&](const Subject* s) {
         return s->name() == options.subject;
     });
@@ -109,9 +113,10 @@ Plan plan(const std::vector<const Subject*>& subjects, const Options& options)
             p.verdicts.push_back(v);
         }
         bool first = true;
+        const double share = appetite(traits) / family_appetite[subject->family()];
         for (Setting& setting : settings_of(*subject, options.tier))
         {
-            Job job{subject, std::move(setting), family_size[subject->family()], {}};
+            Job job{subject, std::move(setting), share, {}};
             for (const auto& [check, verdict] : wanted)
                 if (applies_to(*check, job.setting, first)) job.checks.emplace_back(check, verdict);
             first = false;
@@ -213,7 +218,7 @@ private:
 
     void look(const Job& job)
     {
-        Bench bench(*job.subject, job.setting, job.siblings, _options, false, _stop, _references);
+        Bench bench(*job.subject, job.setting, job.share, _options, false, _stop, _memory);
         std::optional<Bench> second;
         for (const auto& [check, verdict] : job.checks)
         {
@@ -222,8 +227,8 @@ private:
             if (outcome && check->by_chance && outcome->probability < _level)
             {
                 if (!second)
-                    second.emplace(*job.subject, job.setting, job.siblings, _options, true, _stop,
-                                   _references);
+                    second.emplace(*job.subject, job.setting, job.share, _options, true, _stop,
+                                   _memory);
                 outcome = check->run(*second);
             }
             if (outcome && !_stop)
@@ -272,7 +277,7 @@ private:
     double _level;
     std::atomic<std::size_t> _next{0}, _done{0};
     std::atomic<bool> _stop{false};
-    ReferenceAlbedos _references;
+    Memory _memory;
     std::mutex _mutex;
     std::exception_ptr _failure;
 };

@@ -142,8 +142,8 @@ void add_commit(List& list)
     every(1, {0.7, 0.02});
     // Where the next is told from the last by nothing that the subject reads, it is not added.
     list.add(at(0.25, 0.25, 1), {0.7}, {0}, false);
-    list.add(at(0.25, 0.25, 1 / 1.5), {0.7, 0.3}, {0}, false);
-    list.add(at(1, 1, 1 / 1.5), {0.7}, {0}, false);
+    // From below, 1.5 is the inverse from above.
+    list.add(at(0.25, 0.25, 1 / 1.5), {0.7}, {0}, false);
     // Long enough tails need a formula of their own at 1.
     for (double gamma : {3.0, 1.0}) list.add(with_gamma(wide(0.25), gamma), {0.3});
     for (double alpha : {0.25, 1.0})
@@ -152,9 +152,11 @@ void add_commit(List& list)
         list.add(gold(at(alpha, alpha)), {0.3});
     }
     list.add(schlick(at(0.25, 0.25)), {0.02});
-    for (double alpha : {0.04, 1.0}) list.add(in_float(at(alpha, alpha)), {0.7});
+    list.add(in_float(at(0.04, 0.04)), {0.7}, {0}, false);
+    list.add(in_float(at(1, 1)), {0.7});
     list.add(in_float(at(0.25, 0.25)), {0.02});
-    list.add(at(0.25, 0.0625), {0.7}, {0, 45, 90});
+    list.add(at(0.25, 0.0625), {0.7}, {0, 90}, false);
+    list.add(at(0.25, 0.0625), {0.7}, {45});
     list.add(at(0.25, 0.0625), {0.3}, {45}, false);
     list.add(at(0.25, 1), {0.02}, {45}, false);
 }
@@ -179,8 +181,8 @@ void add_thorough(List& list)
         }
         for (double ratio : {4.0, 0.25, 19.0, 100.0})
             for (double alpha : {0.25, 1.0})
-                list.add(with_gamma(wide(alpha, std::min(1.0, alpha / ratio)), gamma),
-                         {0.7, 0.3, 0.02}, {0, 45, 90});
+                list.add(with_gamma(wide(alpha, std::min(1.0, alpha / ratio)), gamma), {0.7, 0.02},
+                         {0, 45, 90}, false);
     }
 }
 

@@ -39,6 +39,11 @@ public:
         _mean += d / static_cast<double>(_n);
         _squares += d * (x - _mean);
     }
+    void scale_by(double factor)
+    {
+        _mean *= factor;
+        _squares *= factor * factor;
+    }
     std::size_t count() const { return _n; }
     double mean() const { return _mean; }
     double variance() const { return _n > 1 ? _squares / static_cast<double>(_n - 1) : 0; }

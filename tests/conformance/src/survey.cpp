@@ -4,6 +4,7 @@
 #include "survey.h"
 
 #include "random.h"
+#include "rounding.h"
 #include "settings.h"
 
 #include <algorithm>
@@ -17,7 +18,7 @@ namespace {
 constexpr std::size_t groups = 32;
 
 // Bins hold this share of the lobe each.
-constexpr double bin_share = 1.0 / 256;
+constexpr double bin_share = 1.0 / 128;
 // An integral with a larger error says nothing; one with less, within it.
 constexpr double most_unresolved = 5e-4;
 constexpr std::size_t scouts = 1 << 14;
@@ -101,12 +102,11 @@ void take_even_samples(const TestedClosure& closure, std::size_t n, Random& rand
             }
             for (int k = 0; k < 3; ++k)
             {
-                squares[static_cast<std::size_t>(k)] += s.weight[k] * s.weight[k] * share;
-                if (s.weight[k] > out.largest_weight || std::isnan(s.weight[k]))
-                {
-                    out.largest_weight = s.weight[k];
-                    out.heaviest = {u, s};
-                }
+                const auto channel = static_cast<std::size_t>(k);
+                squares[channel] += s.weight[k] * s.weight[k] * share;
+                Drawn& heaviest = out.heaviest[channel];
+                if (s.weight[k] > heaviest.sample.weight[k] || std::isnan(s.weight[k]))
+                    heaviest = {u, s};
             }
         }
         out.nothing.add(nothing);
@@ -120,7 +120,27 @@ void take_even_samples(const TestedClosure& closure, std::size_t n, Random& rand
     for (std::size_t k = 0; k < 3; ++k) out.weight_squares[k] = squares[k] / groups;
 }
 
+void scale(std::array<RunningMean, 3>& means, const Color& factor)
+{
+    for (int k = 0; k < 3; ++k) means[static_cast<std::size_t>(k)].scale_by(factor[k]);
+}
+
 }  // namespace
+
+void MeanColor::scale_by(const Color& factor)
+{
+    for (auto* means : {&reflect, &transmit, &both}) scale(*means, factor);
+}
+
+void Survey::scale_by(const Color& gain)
+{
+    for (Color* c : {&reflect, &transmit, &delta_reflect, &delta_transmit}) *c *= gain;
+    weight.scale_by(gain);
+    for (Drawn& d : heaviest) d.sample.weight *= gain;
+    for (int k = 0; k < 3; ++k) weight_squares[static_cast<std::size_t>(k)] *= gain[k] * gain[k];
+    error *= std::max({1.0, gain.x, gain.y, gain.z});
+    resolved = resolved && error <= most_unresolved;
+}
 
 Effort Effort::times(std::size_t factor) const
 {
@@ -133,7 +153,8 @@ Effort Effort::times(std::size_t factor) const
     return e;
 }
 
-Survey survey(TestedClosure& closure, const Direction& wo, const Effort& effort, std::uint64_t seed)
+Survey survey(TestedClosure& closure, const Direction& wo, bool in_double, const Effort& effort,
+              std::uint64_t seed)
 {
     Random random(seed);
     Survey out;
@@ -147,13 +168,18 @@ Survey survey(TestedClosure& closure, const Direction& wo, const Effort& effort,
     const bool exact = !out.traits.stochastic_eval;
     out.error = cells.integrate(
         [&](const Direction& wi) {
-            return Density{closure.pdf(wi), exact ? closure.eval(wi, Direction(0.5)) : Color(0.0)};
+            const double pdf = closure.pdf(wi);
+            // Facets that stand upright have directions that float does not tell apart.
+            const double unsure =
+                in_double ? 0 : std::abs(closure.pdf(turned_by_rounding(wi, false, 1)) - pdf);
+            return Density{pdf, exact ? closure.eval(wi, Direction(0.5)) : Color(0.0), unsure};
         },
         effort.tolerance, effort.evaluations);
     out.resolved = out.error <= most_unresolved;
     for (const Bin& b : cells.bins())
     {
         out.pdf += b.integral.pdf;
+        out.rounding += b.integral.unsure;
         ((b.corner.chart < 4) == (wo.z >= 0) ? out.reflect : out.transmit) += b.integral.value;
     }
     take_even_samples(closure, effort.even_samples, random, out);

@@ -20,11 +20,11 @@ namespace conformance {
 /// How hard to look.
 struct Effort
 {
-    std::size_t samples = 1 << 18;       ///< independent ones, for histograms
-    std::size_t even_samples = 1 << 16;  ///< evenly spread ones, for means
+    std::size_t samples = 1 << 17;       ///< independent ones, for histograms
+    std::size_t even_samples = 1 << 15;  ///< evenly spread ones, for means
     std::size_t evaluations = 1 << 19;   ///< at most, of an integral
     std::size_t estimates = 1 << 15;     ///< of a value that is one
-    double tolerance = 3e-5;             ///< of an integral
+    double tolerance = 1e-4;             ///< of an integral
 
     Effort times(std::size_t factor) const;
 };
@@ -33,13 +33,15 @@ struct Effort
 struct Drawn
 {
     Direction u{0.0};
-    Sample<double> sample;
+    Sample<double> sample{Direction(0, 0, 1), Color(0.0), 0};
 };
 
 /// A mean per channel, of what is reflected, transmitted, both.
 struct MeanColor
 {
     std::array<RunningMean, 3> reflect, transmit, both;
+
+    void scale_by(const Color& factor);
 };
 
 struct Survey
@@ -50,15 +52,15 @@ struct Survey
     // The integrals: of pdf over the sphere, of eval over either side where it is no estimate.
     // `error` is the estimated error of the worst of them.
     double pdf = 0, error = 0;
+    double rounding = 0;    ///< how much of pdf the rounding of wi moves, where it is float's
     bool resolved = false;  ///< the error is small enough to say something
     Color reflect{0.0}, transmit{0.0};
 
     // The samples.
-    RunningMean nothing, delta;  ///< shares; means over groups of evenly spread samples
-    MeanColor weight;            ///< likewise
-    double largest_weight = 0;
-    Drawn heaviest;
-    std::array<double, 3> weight_squares{};         ///< mean square
+    RunningMean nothing, delta;              ///< shares; means over groups of evenly spread samples
+    MeanColor weight;                        ///< likewise
+    std::array<Drawn, 3> heaviest;           ///< in each channel
+    std::array<double, 3> weight_squares{};  ///< mean square
     Color delta_reflect{0.0}, delta_transmit{0.0};  ///< mean weight of those without density
 
     /// Bins that follow the lobe, with the integrals over them.
@@ -68,10 +70,13 @@ struct Survey
     Color reflected() const { return reflect + delta_reflect; }
     Color transmitted() const { return transmit + delta_transmit; }
     Color total() const { return reflected() + transmitted(); }
+
+    /// As if every eval and every weight had been multiplied by it.
+    void scale_by(const Color& gain);
 };
 
-/// `closure` is prepared for wo by this.
-Survey survey(TestedClosure& closure, const Direction& wo, const Effort& effort,
+/// `closure` is prepared for wo by this. in_double: what it computes in.
+Survey survey(TestedClosure& closure, const Direction& wo, bool in_double, const Effort& effort,
               std::uint64_t seed);
 
 /// The integrals of an eval that is an estimate, by n of them; delta lobes included.

@@ -51,7 +51,7 @@ std::optional<Outcome> changes_places(Bench& bench)
     const Traits traits = closure.traits();
     if (traits.stochastic_eval) return std::nullopt;
     Random random = bench.random("C10");
-    const int n = bench.tier() == Tier::commit ? 2000 : 50000;
+    const int n = bench.tier() == Tier::commit ? 2000 : 4000;
     Outcome o;
     o.bound = p.in_double ? 1e-4 : 1e-2;
     int compared = 0;
@@ -169,7 +169,7 @@ std::optional<Outcome> symmetries_hold(Bench& bench)
     const bool has_no_other_axes = bench.subject().reads().two_alphas || !traits.anisotropic;
 
     Random random = bench.random("C12");
-    const int n = bench.tier() == Tier::commit ? 500 : 10000;
+    const int n = bench.tier() == Tier::commit ? 500 : 1000;
     Outcome o;
     o.bound = p.in_double ? 1e-5 : 2e-3;
     const auto compare = [&](TestedClosure& other, const Direction& wo, const Direction& wi,

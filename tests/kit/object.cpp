@@ -80,6 +80,8 @@ void albedo(const void* closure, const double wo[3], regain_albedo_v1* out)
 {
     out->weight = p->alpha_x;
     out->surplus = nan;
+    out->single = 2e-3;
+    out->albedo_noise = 1e-2;
 }
 
 regain_subject_v1 lambert(const char* name)
@@ -89,7 +91,7 @@ regain_subject_v1 lambert(const char* name)
     s.size = sizeof s;
     s.name = name;
     s.reads.in_double = 1;
-    s.promises = {0, nan, 1e-6, nan, albedo_of_it};
+    s.promises = {0, nan, 1e-6, nan, albedo_of_it, 0, 0};
     s.create = create;
     s.destroy = destroy;
     s.traits = traits;

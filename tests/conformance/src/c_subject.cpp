@@ -175,8 +175,15 @@ Promises CSubject::promises(const Parameters& p, const Direction& wo) const
         const regain_parameters_v1 parameters = in_c(p);
         _c.promises_at(&parameters, Three(wo), &c);
     }
-    return {promised(c.surplus), promised(c.furnace), promised(c.albedo), promised(c.tint),
-            promised(c.weight)};
+    Promises out;
+    out.surplus = promised(c.surplus);
+    out.furnace = promised(c.furnace);
+    out.albedo = promised(c.albedo);
+    out.tint = promised(c.tint);
+    out.weight = promised(c.weight);
+    if (c.single > 0) out.single = c.single;
+    if (c.albedo_noise > 0) out.albedo_noise = c.albedo_noise;
+    return out;
 }
 
 }  // namespace conformance

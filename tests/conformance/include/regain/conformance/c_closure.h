@@ -92,6 +92,12 @@ typedef struct regain_promises_v1
     double albedo;  /**< albedo() is within this of what the closure reflects and transmits */
     double tint;    /**< the albedo is within this of the reference subject's */
     double weight;  /**< no sample weighs more */
+    /** In float, eval is within this of double, relative, but for one in a thousand; half of all
+     * are within a 200th of it. Where it is not positive, 1e-3. */
+    double single;
+    /** albedo() is a mean of samples, and chance moves it by this. Where it is not positive, by
+     *  nothing. */
+    double albedo_noise;
 } regain_promises_v1;
 
 /** One sampled direction, or nothing. The kit passes it filled with zeros. */

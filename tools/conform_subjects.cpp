@@ -112,6 +112,12 @@ std::string name_of(const ClosureSpec& spec)
     return name;
 }
 
+// Of dielectrics with a tail none are shipped.
+bool has_albedo_tables(const ClosureSpec& spec)
+{
+    return !(spec.lobe == Lobe::dielectric && shaders::has_gamma(spec.distribution));
+}
+
 class BuiltIn final : public conformance::Subject
 {
 public:
@@ -146,7 +152,7 @@ public:
     std::unique_ptr<TestedClosure> make(const Parameters& p) const override
     {
         ClosureSpec spec = specified(p);
-        return std::make_unique<Tested>(make_closure(spec, has_albedo_tables()));
+        return std::make_unique<Tested>(make_closure(spec, has_albedo_tables(spec)));
     }
 
     conformance::Promises promises(const Parameters& p, const Imath::V3d& wo) const override
@@ -217,12 +223,6 @@ private:
         else
             spec.fresnel = ConstantParameters{};
         return spec;
-    }
-
-    // Of dielectrics with a tail none are shipped.
-    bool has_albedo_tables() const
-    {
-        return !(_spec.lobe == Lobe::dielectric && shaders::has_gamma(_spec.distribution));
     }
 
     ClosureSpec _spec;
@@ -314,12 +314,19 @@ private:
     {
         try
         {
-            make_closure(spec);
+            auto material = spec.material();
+            material.bind_tables(has_albedo_tables(spec));
             return true;
         }
-        catch (const BadInput&)
+        catch (const std::invalid_argument&)
         {
             return false;
+        }
+        catch (const std::runtime_error& e)
+        {
+            // A table that ought to be there hides no subject.
+            if (!has_albedo_tables(spec)) return false;
+            throw BadInput(e.what());
         }
     }
 

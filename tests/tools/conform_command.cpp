@@ -13,6 +13,7 @@
 #include <pugixml.hpp>
 
 #include <chrono>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <thread>
@@ -171,6 +172,17 @@ TEST_F(ConformCommand, lists_subjects_and_checks)
     const auto checks = run("conform --list-checks");
     EXPECT_EQ(checks.code, 0);
     EXPECT_EQ(checks.lines().size(), regain::conformance::all_checks().size());
+}
+
+TEST_F(ConformCommand, a_broken_table_hides_no_subject)
+{
+    write("beckmann_E_ss.exr", "no picture");
+    ::setenv("REGAIN_LUTS", folder.c_str(), 1);
+    const auto o = run("conform --list");
+    ::unsetenv("REGAIN_LUTS");
+    EXPECT_EQ(o.code, 2);
+    EXPECT_EQ(o.out, "");
+    EXPECT_TRUE(says(o.err, (folder / "beckmann_E_ss.exr").string())) << o.err;
 }
 
 TEST_F(ConformCommand, a_whole_name_means_one_subject)

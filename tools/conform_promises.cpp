@@ -50,6 +50,16 @@ double largest_gain(const ClosureSpec& spec, const Imath::V3d& wo)
     return std::max({gain.x, gain.y, gain.z});
 }
 
+// Directional albedo of the lobe alone, by tables.
+double bare_albedo(ClosureSpec spec, const Imath::V3d& wo)
+{
+    spec.method = Method::none;
+    const auto closure = make_closure(spec, true);
+    closure->prepare(wo);
+    const Albedo<double> albedo = closure->albedo();
+    return albedo.reflect.y + albedo.transmit.y;
+}
+
 }  // namespace
 
 Promises promises_of(const ClosureSpec& spec, const Imath::V3d& wo)
@@ -63,6 +73,7 @@ Promises promises_of(const ClosureSpec& spec, const Imath::V3d& wo)
     const bool adds = std::holds_alternative<KullaContyForm>(spec.method);
     const bool compensates = adds || (gain && *gain != Method::none);
     const bool glass = spec.lobe == Lobe::dielectric && !spec.interface.thin_walled;
+    const bool beta = glass && spec.interface.shadowing == TransmissionShadowing::beta;
 
     if (spec.lobe == Lobe::sheen)
     {
@@ -74,9 +85,10 @@ Promises promises_of(const ClosureSpec& spec, const Imath::V3d& wo)
         p.albedo = 1.2e-2;
     else if (spec.distribution != DistributionKind::ggx)
         p.albedo = 5e-3;
+    else if (spec.lobe == Lobe::generalized_schlick)
+        p.albedo = 2.5e-3;
     // Sums of the beta form are looked up as logarithms.
-    if (glass && compensates && spec.interface.shadowing == TransmissionShadowing::beta)
-        p.single = 2e-3;
+    if (beta && compensates) p.single = 2e-3;
     if (std::holds_alternative<shaders::BurleySheen>(spec.method))
     {
         // It adds what it adds.
@@ -111,11 +123,13 @@ Promises promises_of(const ClosureSpec& spec, const Imath::V3d& wo)
     }
     else if (compensates)
         p.surplus = p.furnace;
+    // Where it is little, what the beta form returns alone is not known to any digits, and
+    // neither is a multiple of it.
+    if (beta && compensates && (!in_range || bare_albedo(spec, wo) < 0.1))
+        p.furnace = p.albedo = std::nullopt;
     // The bare lobe's weights are at most 1; those of an added lobe at most 1.4 times what it
     // returns, or of Beckmann's beta form 1.6.
-    const bool beckmann_beta = glass && spec.distribution == DistributionKind::beckmann &&
-                               spec.interface.shadowing == TransmissionShadowing::beta;
-    const double added = beckmann_beta ? 1.6 : 1.4;
+    const double added = beta && spec.distribution == DistributionKind::beckmann ? 1.6 : 1.4;
     if (compensates) p.weight = std::max(largest_gain(spec, wo), adds ? added : 1.0);
     return p;
 }

@@ -91,6 +91,7 @@ TEST(KitSphereCells, a_singular_ring_is_integrated_wherever_cells_end)
             },
             1e-4, 1 << 22);
         const double exact = 2 * pi * std::pow(1 - z0, 0.4) / 0.4;
+        // Of the 9 to 16 that it integrates to, 1e-4 is in the smallest cells.
         EXPECT_LE(error, 2e-4) << z0;
         EXPECT_NEAR(sum(cells), exact, 1e-3 * exact) << z0;
     }

@@ -25,7 +25,7 @@ struct Bug
     /// One setting in which it shows, or empty: all of them. Tests look there alone, which is what
     /// keeps them short.
     std::string setting;
-    /// What shows in the commit tier shows in the thorough one, too.
+    /// The tier that rejects it, by the setting and the effort of that tier.
     Tier tier = Tier::commit;
 };
 

@@ -88,17 +88,20 @@ struct Cell
 bool gathered(const std::vector<ChartPoint>& points, const Cell& cell)
 {
     if (points.size() < 2) return false;
-    std::array<bool, 16> taken{};
+    std::array<double, 16> held{};
     const auto place = [](double x, double from, double size) {
         return static_cast<std::size_t>(std::clamp(4 * (x - from) / size, 0.0, 3.0));
     };
     for (const ChartPoint& p : points)
-        taken[4 * place(p.x, cell.corner.x, cell.width) + place(p.y, cell.corner.y, cell.height)] =
-            true;
-    const auto found = static_cast<double>(std::count(taken.begin(), taken.end(), true));
+        ++held[4 * place(p.x, cell.corner.x, cell.width) + place(p.y, cell.corner.y, cell.height)];
+    const auto n = static_cast<double>(points.size());
+    const auto found = static_cast<double>(
+        std::count_if(held.begin(), held.end(), [](double points) { return points > 0; }));
     // Of 16 boxes, points that fall anywhere leave this many empty.
-    const double expected = 16 * (1 - std::pow(15.0 / 16, static_cast<double>(points.size())));
-    return found < 0.6 * expected;
+    const double expected = 16 * (1 - std::pow(15.0 / 16, n));
+    if (found < 0.6 * expected) return true;
+    // Among others that fall anywhere.
+    return *std::max_element(held.begin(), held.end()) > 8 + 0.25 * n;
 }
 
 // Across which they take less of the cell.
@@ -161,7 +164,8 @@ Direction Charts::direction_of(const ChartPoint& p) const
     return {sine * std::cos(phi), sine * std::sin(phi), p.chart < 4 ? z : -z};
 }
 
-SphereCells::SphereCells(const Direction& wo, const std::vector<Direction>& lobe, double share)
+SphereCells::SphereCells(const Direction& wo, const std::vector<Direction>& lobe, double share,
+                         Of of)
     : _charts(wo)
 {
     std::vector<std::vector<ChartPoint>> points(8);
@@ -171,9 +175,17 @@ SphereCells::SphereCells(const Direction& wo, const std::vector<Direction>& lobe
         points[static_cast<std::size_t>(p.chart)].push_back(p);
     }
     for (int chart = 0; chart < 8; ++chart) _nodes.push_back({{chart, 0, 0}, 1});
-    const auto most = std::max<std::size_t>(
-        1, static_cast<std::size_t>(share * static_cast<double>(lobe.size())));
-    for (std::size_t chart = 0; chart < 8; ++chart) grow(chart, std::move(points[chart]), most, 0);
+    for (std::size_t side = 0; side < 8; side += 4)
+    {
+        std::size_t counted = lobe.size();
+        if (of == Of::each_side)
+            counted = points[side].size() + points[side + 1].size() + points[side + 2].size() +
+                      points[side + 3].size();
+        const auto most = std::max<std::size_t>(
+            1, static_cast<std::size_t>(share * static_cast<double>(counted)));
+        for (std::size_t chart = side; chart < side + 4; ++chart)
+            grow(chart, std::move(points[chart]), most, 0);
+    }
     look_beyond_borders();
 }
 
@@ -209,7 +221,7 @@ void SphereCells::grow(std::size_t node, std::vector<ChartPoint> points, std::si
     if (depth >= shallowest && (points.size() <= most || depth == deepest))
     {
         _nodes[node].bin = static_cast<int>(_bins.size());
-        _bins.push_back({_nodes[node].corner, _nodes[node].size, {}, 0});
+        _bins.push_back({_nodes[node].corner, _nodes[node].size, points.size(), {}, 0});
         _clues.push_back({std::move(points), {}});
         return;
     }

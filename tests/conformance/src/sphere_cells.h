@@ -57,8 +57,9 @@ struct Density
 /// A histogram's bin, and the integrals over it.
 struct Bin
 {
-    ChartPoint corner;  ///< lowest
-    double size = 1;    ///< of its sides
+    ChartPoint corner;      ///< lowest
+    double size = 1;        ///< of its sides
+    std::size_t drawn = 0;  ///< of the lobe's directions
     Density integral;
     double error = 0;  ///< estimated, of integral.pdf and of the largest channel
 };
@@ -66,9 +67,11 @@ struct Bin
 class SphereCells
 {
 public:
-    /// Bins that hold no more than a `share` of the lobe's directions each, as far as halving goes;
-    /// 128 at least.
-    SphereCells(const Direction& wo, const std::vector<Direction>& lobe, double share);
+    enum class Of { all, each_side };
+    /// Bins that hold no more than a `share` of the lobe's directions each, of all or of those on
+    /// the same side of the horizon, as far as halving goes; 128 at least.
+    SphereCells(const Direction& wo, const std::vector<Direction>& lobe, double share,
+                Of of = Of::all);
 
     /// Makes integrals look closely at w, too, wherever samples go. It changes no bin.
     void look_at(const Direction& w);

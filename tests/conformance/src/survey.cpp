@@ -43,9 +43,14 @@ std::vector<Direction> scout(const TestedClosure& closure, Random& random)
     return lobe;
 }
 
+// Low peaks beside high ones are to be found, too.
+double share_of_looks(double pdf) { return std::isfinite(pdf) && pdf > 0 ? std::sqrt(pdf) : 0; }
+
 // Where in the plane of incidence the pdf is, which no sample tells of one that is not exact.
-void look_along_incidence(const TestedClosure& closure, const Direction& wo, SphereCells& cells)
+std::vector<Direction> looked_along_incidence(const TestedClosure& closure, const Direction& wo,
+                                              SphereCells& cells)
 {
+    std::vector<Direction> found;
     constexpr int places = 512, looks = 128;
     const double azimuth = std::atan2(wo.y, wo.x), pi = std::acos(-1.0);
     for (int arc = 0; arc < 4; ++arc)
@@ -60,7 +65,7 @@ void look_along_incidence(const TestedClosure& closure, const Direction& wo, Sph
         for (int i = 0; i < places; ++i)
         {
             const double x = (i + 0.5) / places, pdf = closure.pdf(direction(x, 0));
-            up_to[static_cast<std::size_t>(i)] = sum += std::isfinite(pdf) ? pdf * x : 0;
+            up_to[static_cast<std::size_t>(i)] = sum += share_of_looks(pdf) * x;
         }
         if (sum <= 0) continue;
         for (int i = 0; i < looks; ++i)
@@ -69,8 +74,70 @@ void look_along_incidence(const TestedClosure& closure, const Direction& wo, Sph
                 std::upper_bound(up_to.begin(), up_to.end() - 1, sum * (i + 0.5) / looks);
             const double x = (static_cast<double>(place - up_to.begin()) + 0.5) / places;
             for (double off : {-1e-9, 1e-9}) cells.look_at(direction(x, off));
+            found.push_back(direction(x, 0));
         }
     }
+    return found;
+}
+
+// As many of all directions.
+std::vector<Direction> picked_directions(const TestedClosure& closure, std::size_t n,
+                                         Random& random)
+{
+    constexpr std::size_t places = 1 << 13;
+    std::vector<Direction> directions(places);
+    std::vector<double> up_to(places);
+    double sum = 0;
+    for (std::size_t i = 0; i < places; ++i)
+    {
+        directions[i] = random.direction();
+        const double pdf = closure.pdf(directions[i]);
+        up_to[i] = sum += share_of_looks(pdf);
+    }
+    std::vector<Direction> picked;
+    for (std::size_t i = 0; i < n && sum > 0; ++i)
+    {
+        const double place = sum * (static_cast<double>(i) + 0.5) / static_cast<double>(n);
+        const auto found = std::upper_bound(up_to.begin(), up_to.end() - 1, place);
+        picked.push_back(directions[static_cast<std::size_t>(found - up_to.begin())]);
+    }
+    return picked;
+}
+
+// Along fans too narrow to be met by chance: a chain of steps of all lengths from each start, to be
+// found anywhere as often as the pdf is large (Metropolis et al. 1953).
+void follow_pdf(const TestedClosure& closure, const std::vector<Direction>& starts, Random& random,
+                SphereCells& cells)
+{
+    constexpr int steps = 96, every = 4;
+    for (const Direction& start : starts)
+    {
+        Direction w = start;
+        double pdf = closure.pdf(w);
+        for (int i = 0; i < steps; ++i)
+        {
+            const double length = std::pow(10, -5 * random.unit());
+            const Direction next = (w + random.direction() * length).normalized();
+            const double there = closure.pdf(next);
+            if (random.unit() * pdf < there)
+            {
+                w = next;
+                pdf = there;
+            }
+            if (i % every == every - 1) cells.look_at(w);
+        }
+    }
+}
+
+void look_for_pdf(const TestedClosure& closure, const Direction& wo,
+                  const std::vector<Direction>& samples, Random& random, SphereCells& cells)
+{
+    constexpr std::size_t each = 128;
+    std::vector<Direction> starts = picked_directions(closure, each, random);
+    for (const auto& found : {looked_along_incidence(closure, wo, cells), samples})
+        for (std::size_t i = 0; i < each && !found.empty(); ++i)
+            starts.push_back(found[i * found.size() / each]);
+    follow_pdf(closure, starts, random, cells);
 }
 
 void take_even_samples(const TestedClosure& closure, std::size_t n, Random& random, Survey& out)
@@ -162,9 +229,13 @@ Survey survey(TestedClosure& closure, const Direction& wo, bool in_double, const
     out.traits = closure.traits();
     closure.prepare(wo);
 
-    const auto made = std::make_shared<SphereCells>(wo, scout(closure, random), bin_share);
+    const std::vector<Direction> lobe = scout(closure, random);
+    // An estimate is asked where samples go, on either side, however few on one.
+    const auto made = std::make_shared<SphereCells>(
+        wo, lobe, bin_share,
+        out.traits.stochastic_eval ? SphereCells::Of::each_side : SphereCells::Of::all);
     SphereCells& cells = *made;
-    if (!out.traits.exact_pdf) look_along_incidence(closure, wo, cells);
+    if (!out.traits.exact_pdf) look_for_pdf(closure, wo, lobe, random, cells);
     const bool exact = !out.traits.stochastic_eval;
     out.error = cells.integrate(
         [&](const Direction& wi) {
@@ -187,20 +258,30 @@ Survey survey(TestedClosure& closure, const Direction& wo, bool in_double, const
     return out;
 }
 
-// A bin by its share of the pdf, a place in it evenly, the estimate by numbers of its own.
+// A bin by its shares of the area, of the pdf, and of the samples on either side, which an inexact
+// pdf need not know of; a place in it evenly, the estimate by numbers of its own.
 MeanColor estimated_integrals(const TestedClosure& closure, const Survey& survey, std::size_t n,
                               std::uint64_t seed)
 {
     const std::vector<Bin>& bins = survey.cells->bins();
     Random random(seed);
     MeanColor mean;
-    const double pi = std::acos(-1.0), even_share = 0.2;
+    const double pi = std::acos(-1.0);
+    const auto side = [](const Bin& b) { return static_cast<std::size_t>(b.corner.chart < 4); };
     std::vector<double> up_to(bins.size());
     double sum = 0, pdf = 0, area = 0;
-    for (const Bin& b : bins) pdf += b.integral.pdf, area += b.size * b.size;
+    std::array<double, 2> drawn{};
+    for (const Bin& b : bins)
+    {
+        area += b.size * b.size;
+        pdf += b.integral.pdf;
+        drawn[side(b)] += static_cast<double>(b.drawn);
+    }
     const auto chance = [&](const Bin& b) {
-        const double flat = b.size * b.size / area;
-        return pdf > 0 ? even_share * flat + (1 - even_share) * b.integral.pdf / pdf : flat;
+        double p = 0.2 * b.size * b.size / area;
+        if (pdf > 0) p += 0.4 * b.integral.pdf / pdf;
+        if (drawn[side(b)] > 0) p += 0.2 * static_cast<double>(b.drawn) / drawn[side(b)];
+        return p;
     };
     for (std::size_t b = 0; b < bins.size(); ++b) up_to[b] = sum += chance(bins[b]);
 

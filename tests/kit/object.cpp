@@ -82,6 +82,7 @@ void albedo(const void* closure, const double wo[3], regain_albedo_v1* out)
     out->surplus = nan;
     out->single = 2e-3;
     out->albedo_noise = 1e-2;
+    out->pdf = 3e-3;
 }
 
 regain_subject_v1 lambert(const char* name)

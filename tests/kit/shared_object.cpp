@@ -85,6 +85,7 @@ TEST(KitSharedObject, promises_are_fixed_or_follow_parameters)
     EXPECT_EQ(fixed.weight, 0.5);
     EXPECT_EQ(fixed.single, 1e-3);
     EXPECT_EQ(fixed.albedo_noise, 0);
+    EXPECT_EQ(fixed.pdf, 5e-4);
     Parameters p;
     p.alpha_x = 0.75;
     const auto following = load_shared_object(object("promising"))[0]->promises(p, up);
@@ -93,6 +94,7 @@ TEST(KitSharedObject, promises_are_fixed_or_follow_parameters)
     EXPECT_EQ(following.albedo, fixed.albedo);
     EXPECT_EQ(following.single, 2e-3);
     EXPECT_EQ(following.albedo_noise, 1e-2);
+    EXPECT_EQ(following.pdf, 3e-3);
 }
 
 TEST(KitSharedObject, subjects_know_those_that_they_name)

@@ -183,6 +183,7 @@ Promises CSubject::promises(const Parameters& p, const Direction& wo) const
     out.weight = promised(c.weight);
     if (c.single > 0) out.single = c.single;
     if (c.albedo_noise > 0) out.albedo_noise = c.albedo_noise;
+    if (c.pdf > 0) out.pdf = c.pdf;
     return out;
 }
 

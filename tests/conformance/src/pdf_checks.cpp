@@ -97,7 +97,7 @@ std::optional<Outcome> pdf_integrates_to_one(Bench& bench)
     Outcome o;
     o.measured = std::abs(s.pdf + share - 1);
     // Rounding may take as much again, and no more: what is all rounding is no density.
-    constexpr double bound = 5e-4;
+    const double bound = bench.promises().pdf;
     o.bound = bound + std::min(s.rounding, bound);
     const double beyond = o.measured - o.bound - s.error;
     const double error = std::hypot(s.nothing.standard_error(), s.delta.standard_error());

@@ -26,7 +26,8 @@
 /// digits needed here, no tail parameter, it is
 ///   (1 - E_ss) ((1 - t) cos / pi + t 3 cos^2 / (2 pi)),  t = alpha mu_o
 /// For GGX the pdf is then within 0.02 to 0.11 of the density for alpha >= 0.25, relative rms, and
-/// within 0.3 for smaller ones. It integrates to 1 as well as the table knows E_ss: 5e-4.
+/// within 0.3 for smaller ones. It integrates to 1 as well as the table knows E_ss: 5e-4; 1e-3 for
+/// Beckmann.
 ///
 /// Otherwise the share 1 - E_ss is not known, but the density n(d) of first bounces along d that do
 /// not leave is. Carried from the sphere onto the hemisphere, by halving the angle to -z, it

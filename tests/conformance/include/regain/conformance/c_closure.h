@@ -98,6 +98,9 @@ typedef struct regain_promises_v1
     /** albedo() is a mean of samples, and chance moves it by this. Where it is not positive, by
      *  nothing. */
     double albedo_noise;
+    /** The integral of the pdf, and the chances of nothing and of delta lobes, are 1 within this.
+     *  Where it is not positive, 5e-4. */
+    double pdf;
 } regain_promises_v1;
 
 /** One sampled direction, or nothing. The kit passes it filled with zeros. */

@@ -63,6 +63,8 @@ struct Promises
     std::optional<double> tint;
     /// No sample weighs more.
     std::optional<double> weight = 1;
+    /// The integral of the pdf, and the chances of nothing and of delta lobes, are 1 within this.
+    double pdf = 5e-4;
     /// In float, eval is within this of double, relative, but for one in a thousand; half of all
     /// are within a 200th of it.
     double single = 1e-3;

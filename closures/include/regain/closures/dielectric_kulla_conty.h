@@ -26,7 +26,8 @@
 ///
 /// L_o is looked up in DielectricTables of the distribution and form of shadowing. Tints multiply
 /// the lobes once. A lobe of mode R or T gets its own part of both. Building a closure asks the
-/// tables 102 times; per point and direction it is one look-up.
+/// tables 102 times; per point and direction it is one look-up, and per point of a lobe of mode R
+/// its albedo.
 
 #pragma once
 
@@ -285,8 +286,8 @@ public:
         const Real F = DielectricFresnel<Real>(lobe.eta()).average_reflectance();
         const bool reflects = lobe.scatter_mode() != ScatterMode::T,
                    transmits = lobe.scatter_mode() != ScatterMode::R;
-        _likely = (reflects ? total(lobe.reflection_tint()) * F : Real(0)) +
-                  (transmits ? total(lobe.transmission_tint()) * (Real(1) - F) : Real(0));
+        _scattered = (reflects ? total(lobe.reflection_tint()) * F : Real(0)) +
+                     (transmits ? total(lobe.transmission_tint()) * (Real(1) - F) : Real(0));
 
         const auto& distribution = lobe.distribution();
         // The tables know one alpha; what they say of two is an estimate.
@@ -317,18 +318,31 @@ public:
         // proportion to albedos the largest weight would be 1 / E^S, 7 where this has 3.
         Prepared(const DielectricKullaConty& closure, const typename Lobe::Prepared& lobe,
                  const typename Added::Prepared& added)
-            : Mixture::Prepared(lobe, added, closure._likely * detail::sqrt(Real(1) - added.loss()),
-                                total(added.albedo().reflect) + total(added.albedo().transmit))
+            : Mixture::Prepared(lobe, added, size(closure, lobe, Real(1) - added.loss()),
+                                total(added.albedo()))
         {}
+
+        // Of reflection alone a sample is worth its share of E^S, which the average over directions
+        // does not tell: near eta = 1 nothing reflects but what grazes. Of transmission alone the
+        // average is better, since tables know little of a share that is next to nothing.
+        static Real size(const DielectricKullaConty& closure, const typename Lobe::Prepared& lobe,
+                         Real E)
+        {
+            const Real root = detail::sqrt(E);
+            if (closure.lobe().scatter_mode() != ScatterMode::R || !closure.lobe().tables())
+                return closure._scattered * root;
+            return total(lobe.albedo()) / detail::max(root, detail::constant<Real>(1e-6));
+        }
     };
 
     Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
 
 private:
     static Real total(const Color& c) { return c.x + c.y + c.z; }
+    static Real total(const Albedo<Real>& a) { return total(a.reflect) + total(a.transmit); }
 
     Mixture _mixture;
-    Real _likely;  // how much of what the lobe scatters is seen, over all directions
+    Real _scattered;  // how much of what is not lost is seen, over all directions of wo
     bool _preserves;
 };
 

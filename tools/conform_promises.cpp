@@ -89,6 +89,8 @@ Promises promises_of(const ClosureSpec& spec, const Imath::V3d& wo)
         p.albedo = 2.5e-3;
     // Sums of the beta form are looked up as logarithms.
     if (beta && compensates) p.single = 2e-3;
+    // Where light passes undeflected the added lobe is all there is, steep between the nodes.
+    if (beta && adds && spec.interface.eta == 1) p.single = 1.5e-2;
     if (std::holds_alternative<shaders::BurleySheen>(spec.method))
     {
         // It adds what it adds.
@@ -129,9 +131,9 @@ Promises promises_of(const ClosureSpec& spec, const Imath::V3d& wo)
     // neither is a multiple of it.
     if (beta && compensates && (!in_range || bare_albedo(spec, wo) < 0.1))
         p.furnace = p.albedo = std::nullopt;
-    // The bare lobe's weights are at most 1; those of an added lobe at most 1.4 times what it
-    // returns, or of Beckmann's beta form 1.6.
-    const double added = beta && spec.distribution == DistributionKind::beckmann ? 1.6 : 1.4;
+    // The bare lobe's weights are at most 1; those of an added lobe at most 1.5 times what it
+    // returns, or of Beckmann's beta form twice.
+    const double added = beta && spec.distribution == DistributionKind::beckmann ? 2 : 1.5;
     if (compensates) p.weight = std::max(largest_gain(spec, wo), adds ? added : 1.0);
     return p;
 }

@@ -20,7 +20,7 @@ namespace conformance {
 /// How hard to look.
 struct Effort
 {
-    std::size_t samples = 1 << 17;       ///< independent ones, for histograms
+    std::size_t samples = 1 << 16;       ///< independent ones, for histograms
     std::size_t even_samples = 1 << 15;  ///< evenly spread ones, for means
     std::size_t evaluations = 1 << 19;   ///< at most, of an integral
     std::size_t estimates = 1 << 15;     ///< of a value that is one

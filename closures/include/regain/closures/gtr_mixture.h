@@ -164,6 +164,7 @@ public:
         for (int i = 0; i < _nodes; ++i)
         {
             const MaskOf<Real> reached = sum <= target;
+            if (!any<Real>(reached)) break;
             term.t = select(reached, _t[i], term.t);
             xi = select(reached, _xi[i], xi);
             sum += _weight[i] * (above * orders_mass(i) + Real(0.5f) * length_below(i, height, s2));

@@ -54,7 +54,7 @@ MeanColor by_both(Bench& bench)
     TestedClosure& closure = bench.closure();
     Random random = bench.random("C6");
     const Direction wo = bench.setting().wo;
-    const std::size_t each = bench.effort().even_samples / groups / 2;
+    const std::size_t each = bench.effort().estimates / groups / 2;
     const double share = 1 / static_cast<double>(each);
     MeanColor out;
     for (std::size_t g = 0; g < groups; ++g)

@@ -112,8 +112,10 @@ Promises promises_of(const ClosureSpec& spec, const Imath::V3d& wo)
     if (walks)
     {
         p.furnace = 5e-4;
-        // Of a conductor, as well as the table knows E_ss.
-        if (!glass && spec.distribution == DistributionKind::beckmann) p.pdf = 1e-3;
+        // Of a conductor, as well as the table knows E_ss; of an interface with STD's tail, as
+        // float tells directions apart where facets stand upright.
+        if (spec.distribution == (glass ? DistributionKind::std : DistributionKind::beckmann))
+            p.pdf = 1e-3;
         // Looked up as that of the series.
         if (!glass && !std::holds_alternative<ConstantParameters>(spec.fresnel))
             p.albedo = spec.distribution == DistributionKind::std ? 0.08 : 0.05;

@@ -80,7 +80,7 @@ std::vector<Direction> looked_along_incidence(const TestedClosure& closure, cons
     return found;
 }
 
-// As many of all directions.
+// Some of all directions, more where the pdf is.
 std::vector<Direction> picked_directions(const TestedClosure& closure, std::size_t n,
                                          Random& random)
 {

@@ -26,6 +26,14 @@ constexpr bool fast_math = true;
 constexpr bool fast_math = false;
 #endif
 
+/// Where the processor multiplies and adds in one, g++ chooses anew in each inlined copy of a
+/// function which sums to fuse, so two answers to the same question may differ by a few roundings.
+#if defined(__FMA__) || defined(__FP_FAST_FMAF)
+constexpr bool fused = true;
+#else
+constexpr bool fused = false;
+#endif
+
 inline bool is_finite(float x)
 {
     std::uint32_t bits;

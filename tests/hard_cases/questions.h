@@ -57,7 +57,8 @@ void expect_color_near(const Color3<Real>& c, const Color3<double>& expected, do
 template <class Real>
 void expect_same_pdf(Real a, Real b)
 {
-    EXPECT_NEAR(a, b, fast_math ? 1e3 * rounding<Real> * double(b) : 0);
+    const double roundings = fast_math ? 1e3 : fused ? 1 : 0;
+    EXPECT_NEAR(a, b, roundings * rounding<Real> * double(b));
 }
 
 template <class Real>

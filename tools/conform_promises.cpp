@@ -27,6 +27,7 @@ std::optional<double> tint_of(const shaders::Compensation& method, DistributionK
     const bool tail = distribution == DistributionKind::std;
     if (const auto* form = std::get_if<KullaContyForm>(&method))
         return *form == KullaContyForm::printed ? 0.09 : tail ? 0.08 : 0.05;
+    if (std::holds_alternative<shaders::Directional>(method)) return 1.2e-2;
     const auto* gain = std::get_if<Method>(&method);
     if (!gain) return std::nullopt;
     switch (*gain)
@@ -71,7 +72,8 @@ Promises promises_of(const ClosureSpec& spec, const Imath::V3d& wo)
     const auto* gain = std::get_if<Method>(&spec.method);
     const bool walks = std::holds_alternative<shaders::RandomWalk>(spec.method);
     const bool adds = std::holds_alternative<KullaContyForm>(spec.method);
-    const bool compensates = adds || (gain && *gain != Method::none);
+    const bool compensates = adds || std::holds_alternative<shaders::Directional>(spec.method) ||
+                             (gain && *gain != Method::none);
     const bool glass = spec.lobe == Lobe::dielectric && !spec.interface.thin_walled;
     const bool beta = glass && spec.interface.shadowing == TransmissionShadowing::beta;
 

@@ -165,6 +165,7 @@ public:
     {
         if (const auto* method = std::get_if<Method>(&_spec.method))
             return *method == Method::none ? Form::none : Form::gain;
+        if (std::holds_alternative<shaders::Directional>(_spec.method)) return Form::gain;
         return std::holds_alternative<shaders::RandomWalk>(_spec.method) ? Form::replaced
                                                                          : Form::added_lobe;
     }
@@ -196,6 +197,9 @@ private:
         std::vector<std::string> names;
         for (const char* quantity : {"E_ss", "E_avg", "falloff", "dip"})
             names.push_back(distribution + "_" + quantity);
+        if (std::holds_alternative<shaders::Directional>(_spec.method))
+            for (const char* quantity : {"q_ms", "mu_ms"})
+                names.push_back(distribution + "_" + quantity);
         // A mode that only reflects is a mirror's.
         if (!glass || _spec.interface.mode == ScatterMode::R) return names;
         names.clear();

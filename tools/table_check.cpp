@@ -129,6 +129,9 @@ SpotTolerance spot_tolerance(const std::string& table)
     if (quantity == "E_ss" || quantity == "E_avg") return {1e-3, true};
     // The mean of Schlick's falloff bends the most, where all of it is small.
     if (quantity == "falloff") return {6e-3, false};
+    // Of walks, and of the few of them that meet a second facet.
+    if (quantity == "q_ms") return {0.02, false};
+    if (quantity == "mu_ms") return {0.08, false};
     return {1e-3, false};
 }
 

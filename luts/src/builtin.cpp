@@ -12,6 +12,8 @@ namespace {
 #include "builtin/ggx_E_ss.inc"
 #include "builtin/ggx_dip.inc"
 #include "builtin/ggx_falloff.inc"
+#include "builtin/ggx_mu_ms.inc"
+#include "builtin/ggx_q_ms.inc"
 
 }  // namespace
 
@@ -22,6 +24,8 @@ MicrofacetTables ggx_tables()
     tables.E_avg = ggx_E_avg;
     tables.falloff = ggx_falloff;
     tables.dip = ggx_dip;
+    tables.q_ms = ggx_q_ms;
+    tables.mu_ms = ggx_mu_ms;
     return tables;
 }
 
@@ -31,6 +35,8 @@ TableView builtin_table(const std::string& name)
     if (name == "ggx_E_avg") return ggx_E_avg;
     if (name == "ggx_falloff") return ggx_falloff;
     if (name == "ggx_dip") return ggx_dip;
+    if (name == "ggx_q_ms") return ggx_q_ms;
+    if (name == "ggx_mu_ms") return ggx_mu_ms;
     return {};
 }
 

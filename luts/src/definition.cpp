@@ -8,6 +8,7 @@
 #include <regain/closures/tail.h>
 #include <regain/luts/albedo_integral.h>
 #include <regain/luts/dielectric_integral.h>
+#include <regain/luts/later_bounces.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,6 +19,13 @@ namespace luts {
 namespace {
 
 constexpr int table_nodes = 32;
+
+// What light does after the first bounce changes slowly with everything. A node is the mean of
+// 2^17 walks, and as exact as these.
+constexpr int later_nodes = 12, later_node_accuracy = 128, later_check_accuracy = 32,
+              walks_per_accuracy = 1024;
+// Along the surface all is reflected, and no light is left for a second bounce.
+constexpr double least_later_cosine = 0.01;
 
 // E^S of a dielectric has on one axis what E_ss has and where refraction sets in, and falls
 // steeply where eta is near 1. Twice the intervals along the cosine keep the critical one a node.
@@ -96,7 +104,7 @@ double correlated_share(const Values& v) { return share(v[0], v[1], v[3]); }
 double beta_share(const Values& v) { return share(v[0], v[2], v[3]); }
 
 const char* const distributions[] = {"ggx", "beckmann", "gtr", "std"};
-const char* const directional[] = {"E_ss", "E_avg", "falloff", "dip"};
+const char* const directional[] = {"E_ss", "E_avg", "falloff", "dip", "q_ms", "mu_ms"};
 const char* const shadowings[] = {"correlated", "beta"};
 const char* const sides[] = {"outside", "inside"};
 
@@ -110,7 +118,8 @@ bool is_tailed(const std::string& distribution)
     throw std::invalid_argument(
         "no table is called '" + name + "'" + why +
         "; there are DISTRIBUTION_QUANTITY with ggx, beckmann, gtr, std and E_ss, E_avg, falloff, "
-        "dip, and DISTRIBUTION_QUANTITY_SHADOWING_SIDE with E_S, R_share; correlated, beta; "
+        "dip, q_ms, mu_ms, and DISTRIBUTION_QUANTITY_SHADOWING_SIDE with E_S, R_share; correlated, "
+        "beta; "
         "outside, inside; there gtr and std take their gamma: gtr_1.3_E_S_beta_inside");
 }
 
@@ -193,6 +202,15 @@ std::vector<Family::Values> Family::row(const SlopeLaw& law, const std::vector<d
         };
         // At mu = 0 all is reflected, but there is nothing left to take a mean of; next to it the
         // limit can be read off.
+        if (kind == Kind::later)
+        {
+            const double mu = std::max(x * x, least_later_cosine);
+            const LaterBounces later =
+                later_bounces(distribution, alpha, tail_at(z), mu, albedo(law, mu, {}, {24}),
+                              nodes * walks_per_accuracy);
+            values.push_back({later.q, later.mu, 0, 0});
+            continue;
+        }
         const double mu = mu_at(std::max(x, 1e-3));
         const AlbedoMoments m = albedo_moments(law, mu, {nodes});
         const auto facet = FresnelMoments<double>::at(mu);
@@ -214,6 +232,7 @@ bool Family::promised(double x, double y, double z, double share) const
     if (kind == Kind::average) return !has_tail_axis() || alpha_of_tailed(x) >= 5e-4;
     if (kind == Kind::dielectric)
         return mu_of_dielectric(x, y, eta_of_coordinate(z, inside, near_index)) >= 0.018 * share;
+    if (kind == Kind::later) return alpha_at(y) >= 0.1 && x * x >= 0.02;
     if (!has_tail_axis()) return true;
     const double alpha = alpha_of_tailed(y);
     return alpha >= 5e-4 && mu_of_tail_cosine(x, alpha) >= 7e-4;
@@ -295,6 +314,20 @@ Definition Definition::of(const std::string& name)
                                               : 1;
                 info.offset = d.lowest;
                 info.scale = (d.highest - d.lowest) / 65535;
+            }
+            if (rest == "q_ms" || rest == "mu_ms")
+            {
+                d.family.kind = Family::Kind::later;
+                d.value = rest == "q_ms" ? first : second;
+                d.width = d.height = later_nodes;
+                if (tailed) d.depth = later_nodes;
+                d.node_accuracy = later_node_accuracy;
+                d.check_accuracy = later_check_accuracy;
+                d.lowest = info.offset = 0;
+                info.scale = 0x1p-16;
+                d.highest = 65535 * info.scale;
+                info.axis_x = "sqrt(mu)";
+                info.method = "random walks, 1024 for each of as many nodes as said";
             }
             info.nodes = d.node_accuracy;
             return d;

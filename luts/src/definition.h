@@ -17,6 +17,7 @@ struct Family
     enum class Kind {
         directional,  // E_ss, falloff, dip
         average,      // E_avg
+        later,        // q_ms, mu_ms
         dielectric    // E^R, correlated E^T, E^T in the beta form, w F(mu)
     };
     using Values = std::array<double, 4>;

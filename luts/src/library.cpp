@@ -162,6 +162,12 @@ MicrofacetTables microfacet_tables(const std::string& distribution)
     return tables;
 }
 
+void add_later_bounces(MicrofacetTables& tables, const std::string& distribution)
+{
+    tables.q_ms = table_named(distribution + "_q_ms");
+    tables.mu_ms = table_named(distribution + "_mu_ms");
+}
+
 DielectricTables dielectric_tables(const std::string& distribution, TransmissionShadowing shadowing,
                                    double gamma)
 {

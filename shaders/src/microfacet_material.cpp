@@ -14,6 +14,7 @@ namespace {
 std::vector<Compensation> every_compensation()
 {
     std::vector<Compensation> all(std::begin(all_methods), std::end(all_methods));
+    all.push_back(Directional{});
     all.insert(all.end(), std::begin(all_kulla_conty_forms), std::end(all_kulla_conty_forms));
     all.push_back(RandomWalk{});
     all.push_back(BurleySheen{});
@@ -51,6 +52,7 @@ std::string_view name(const Compensation& compensation)
 {
     if (const auto* method = std::get_if<Method>(&compensation)) return regain::name(*method);
     if (const auto* form = std::get_if<KullaContyForm>(&compensation)) return regain::name(*form);
+    if (std::holds_alternative<Directional>(compensation)) return "directional";
     return std::holds_alternative<RandomWalk>(compensation) ? "walk" : "burley-sheen";
 }
 
@@ -114,7 +116,10 @@ void MicrofacetMaterial::bind_tables(bool for_albedo)
     const std::string names(name(distribution));
     if (!interface || interface->thin_walled ||
         (interface->mode == ScatterMode::R && !std::holds_alternative<KullaContyForm>(method)))
+    {
         _tables = luts::microfacet_tables(names);
+        if (std::holds_alternative<Directional>(method)) luts::add_later_bounces(_tables, names);
+    }
     else if (gains || (for_albedo && !is_walk))
         _interface_tables = luts::dielectric_tables(names, interface->shadowing, gamma);
 }

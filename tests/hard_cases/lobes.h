@@ -12,6 +12,7 @@
 #include <regain/closures/dielectric_gain.h>
 #include <regain/closures/dielectric_kulla_conty.h>
 #include <regain/closures/dielectric_walk.h>
+#include <regain/closures/directional_gain.h>
 #include <regain/closures/generalized_schlick.h>
 #include <regain/closures/kulla_conty.h>
 #include <regain/closures/thin_dielectric.h>
@@ -59,6 +60,11 @@ public:
                 return compensated(schlick(s), method, mirror_tables(d), strength(s));
             });
         }
+        add(Lobe::schlick, "directional", [=](const Parameters& s) {
+            MicrofacetTables tables = mirror_tables(d);
+            luts::add_later_bounces(tables, d);
+            return directional(schlick(s), tables, strength(s));
+        });
         for (KullaContyForm form : all_kulla_conty_forms)
             add(Lobe::schlick, name(form), [=](const Parameters& s) {
                 return kulla_conty(schlick(s), form, mirror_tables(d), strength(s));

@@ -282,9 +282,11 @@ TEST(Tables, files_match_their_definition)
         const luts::Table table = luts::read_table(shipped(name));
         EXPECT_EQ(table.name(), name);
         const bool solid = table.depth() > 1, relative = table.info().error_kind == "relative";
+        // Of walks an integral is an estimate, and the same only by the same walks.
+        const bool walked = table.info().method.find("walks") != std::string::npos;
         Random random(8);
         double worst = 0;
-        for (int i = 0; i < (solid ? 25 : name == "ggx_E_ss" ? 200 : 60);)
+        for (int i = 0; i < (walked ? 12 : solid ? 25 : name == "ggx_E_ss" ? 200 : 60);)
         {
             luts::TablePoint at{random.unit(), random.unit(), solid ? random.unit() : 0};
             if (!luts::is_error_promised(name, at)) continue;
@@ -299,14 +301,18 @@ TEST(Tables, files_match_their_definition)
         EXPECT_LT(worst, table.info().error * (solid ? 1.5 : 1.05) + 3e-5) << name;
 
         if (relative) continue;
-        for (int i = 0; i < 12; ++i)
+        for (int i = 0; i < (walked ? 4 : 12); ++i)
         {
             const auto node = [&](int length) { return static_cast<int>(random.unit() * length); };
             const int x = node(table.width()), y = node(table.height()), z = node(table.depth());
-            const luts::TablePoint at{x / 31.0, y / 31.0, z / 31.0};
+            const auto along = [](int node, int length) {
+                return node / std::max(1.0, length - 1.0);
+            };
+            const luts::TablePoint at{along(x, table.width()), along(y, table.height()),
+                                      along(z, table.depth())};
             const float stored = table.values()[static_cast<std::size_t>(
                 (z * table.height() + y) * table.width() + x)];
-            const double exact = luts::exact_value(name, at, 48);
+            const double exact = luts::exact_value(name, at, walked ? table.info().nodes : 48);
             EXPECT_NEAR(stored, exact, 2e-6 + luts::storage_step(table, exact) / 2)
                 << name << " node " << x << " " << y << " " << z;
         }

@@ -12,6 +12,7 @@
 #include <regain/closures/compensated.h>
 #include <regain/closures/conductor_fresnel.h>
 #include <regain/closures/constant_fresnel.h>
+#include <regain/closures/directional_gain.h>
 #include <regain/closures/ggx.h>
 #include <regain/closures/kulla_conty.h>
 #include <regain/closures/schlick_fresnel.h>
@@ -187,6 +188,15 @@ auto with_gain(Method method)
                            method, luts::ggx_tables());
     };
 }
+auto with_directional_gain()
+{
+    return [](const auto& distribution, const auto& fresnel) {
+        using Distribution = std::decay_t<decltype(distribution)>;
+        using Fresnel = std::decay_t<decltype(fresnel)>;
+        return directional(MicrofacetReflection<Distribution, Fresnel>(distribution, fresnel),
+                           luts::ggx_tables());
+    };
+}
 auto with_added_lobe(KullaContyForm form)
 {
     return [form](const auto& distribution, const auto& fresnel) {
@@ -327,6 +337,8 @@ Figure make_table1(const Request& request)
         add(std::string(name(method)), method == Method::none ? "-" : "gain(wo)", with_gain(method),
             method == Method::none ? 0 : E_ss + (averaged ? E_avg : 0));
     }
+    add("directional", "gain(wo)", with_directional_gain(),
+        E_ss + bytes(tables.q_ms) + bytes(tables.mu_ms));
     for (const KullaContyForm form : all_kulla_conty_forms)
         add(std::string(name(form)), "added lobe", with_added_lobe(form), E_ss);
     add("walk", "replaces the lobe", walking(), 0);

@@ -154,6 +154,12 @@ public:
                                                       : stretched_cosine(mu, _alpha);
         return _has_tail ? table.at(x, _width, _tail) : table.at(x, _width);
     }
+    /// Of what changes slowly, q_ms and mu_ms, the first axis is sqrt(mu); mu in [0, 1].
+    Real later(const TableView& table, Real mu) const
+    {
+        const Real x = detail::sqrt(mu);
+        return _has_tail ? table.at(x, _width, _tail) : table.at(x, _width);
+    }
     Real average(const TableView& table) const
     {
         return _has_tail ? table.at(_width, _tail) : table.at(_width);
@@ -173,6 +179,8 @@ struct MicrofacetTables
     /// Over (x, y[, z]): the moments of fresnel_moments.h over all that is scattered once, each
     /// less its value at mu.
     TableView falloff, dip;
+    /// Of the bounces after the first, over (sqrt(mu), y[, z]): see directional_gain.h.
+    TableView q_ms, mu_ms;
     /// E_ss and E_avg hold natural logarithms: where they fall to a few hundredths, straight lines
     /// between those err less.
     bool logarithmic = false;

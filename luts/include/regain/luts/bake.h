@@ -70,8 +70,9 @@ struct TablePoint
 /// Exact value of what the table holds at a point, by quadrature of `nodes` nodes a piece.
 REGAIN_LUTS_API double exact_value(const std::string& name, const TablePoint& at, int nodes);
 
-/// Whether the table's error is promised at a point: distributions with a tail from alpha 5e-4 and
-/// mu 7e-4 on, dielectrics from mu 0.018 on, anything else everywhere.
+/// Whether the table's error is promised at a point: of q_ms and mu_ms from alpha 0.1 and mu 0.02
+/// on, else of distributions with a tail from alpha 5e-4 and mu 7e-4 on, of dielectrics from mu
+/// 0.018 on, of anything else everywhere.
 REGAIN_LUTS_API bool is_error_promised(const std::string& name, const TablePoint& at);
 
 /// No error is promised where the quantity itself is below this: 0.1 of E_S in the beta form, which

@@ -25,6 +25,7 @@
 #include <regain/closures/dielectric_gain.h>
 #include <regain/closures/dielectric_kulla_conty.h>
 #include <regain/closures/dielectric_walk.h>
+#include <regain/closures/directional_gain.h>
 #include <regain/closures/ggx.h>
 #include <regain/closures/gtr.h>
 #include <regain/closures/kulla_conty.h>
@@ -100,12 +101,16 @@ struct RandomWalk
     int eval_samples = 1;
 };
 
+/// The gain whose colour depends on the direction.
+struct Directional
+{};
+
 /// Burley's 2015 addition to a lobe that is not compensated.
 struct BurleySheen
 {};
 
 /// Any method of compensation: a gain, an added lobe, a walk, a glow.
-using Compensation = std::variant<Method, KullaContyForm, RandomWalk, BurleySheen>;
+using Compensation = std::variant<Method, Directional, KullaContyForm, RandomWalk, BurleySheen>;
 
 REGAIN_SHADERS_API std::string_view name(const Compensation&);
 REGAIN_SHADERS_API std::optional<Compensation> compensation_named(std::string_view);
@@ -197,6 +202,8 @@ private:
     template <class Lobe, class Real, class Visit>
     decltype(auto) with_reflection(const Lobe& lobe, Real strength, const Visit& visit) const
     {
+        if (std::holds_alternative<Directional>(method))
+            return visit(directional(lobe, _tables, strength));
         if (const auto* form = std::get_if<KullaContyForm>(&method))
             return visit(kulla_conty(lobe, *form, _tables, strength));
         if (const auto* walk = random_walk(strength))

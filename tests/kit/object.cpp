@@ -92,7 +92,7 @@ regain_subject_v1 lambert(const char* name)
     s.size = sizeof s;
     s.name = name;
     s.reads.in_double = 1;
-    s.promises = {0, nan, 1e-6, nan, albedo_of_it, 0, 0};
+    s.promises = {0, nan, 1e-6, nan, albedo_of_it, 0, 0, 0};
     s.create = create;
     s.destroy = destroy;
     s.traits = traits;

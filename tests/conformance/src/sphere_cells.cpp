@@ -96,7 +96,7 @@ bool gathered(const std::vector<ChartPoint>& points, const Cell& cell)
         ++held[4 * place(p.x, cell.corner.x, cell.width) + place(p.y, cell.corner.y, cell.height)];
     const auto n = static_cast<double>(points.size());
     const auto found = static_cast<double>(
-        std::count_if(held.begin(), held.end(), [](double points) { return points > 0; }));
+        std::count_if(held.begin(), held.end(), [](double in_box) { return in_box > 0; }));
     // Of 16 boxes, points that fall anywhere leave this many empty.
     const double expected = 16 * (1 - std::pow(15.0 / 16, n));
     if (found < 0.6 * expected) return true;

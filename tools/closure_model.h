@@ -112,6 +112,11 @@ private:
         return added(closure.lobe());
     }
     template <class Lobe>
+    GainAnswer gain_of(const FittedTail<Lobe>& closure) const
+    {
+        return added(closure.lobe());
+    }
+    template <class Lobe>
     GainAnswer gain_of(const DielectricKullaConty<Lobe>& closure) const
     {
         return added(closure.lobe());

@@ -27,7 +27,9 @@ std::optional<double> tint_of(const shaders::Compensation& method, DistributionK
     const bool tail = distribution == DistributionKind::std;
     if (const auto* form = std::get_if<KullaContyForm>(&method))
         return *form == KullaContyForm::printed ? 0.09 : tail ? 0.08 : 0.05;
-    if (std::holds_alternative<shaders::Directional>(method)) return 1.2e-2;
+    if (std::holds_alternative<shaders::Directional>(method) ||
+        std::holds_alternative<shaders::Tail>(method))
+        return 1.2e-2;
     const auto* gain = std::get_if<Method>(&method);
     if (!gain) return std::nullopt;
     switch (*gain)
@@ -73,6 +75,7 @@ Promises promises_of(const ClosureSpec& spec, const Imath::V3d& wo)
     const bool walks = std::holds_alternative<shaders::RandomWalk>(spec.method);
     const bool adds = std::holds_alternative<KullaContyForm>(spec.method);
     const bool compensates = adds || std::holds_alternative<shaders::Directional>(spec.method) ||
+                             std::holds_alternative<shaders::Tail>(spec.method) ||
                              (gain && *gain != Method::none);
     const bool glass = spec.lobe == Lobe::dielectric && !spec.interface.thin_walled;
     const bool beta = glass && spec.interface.shadowing == TransmissionShadowing::beta;
@@ -136,9 +139,10 @@ Promises promises_of(const ClosureSpec& spec, const Imath::V3d& wo)
     if (beta && compensates && (!in_range || bare_albedo(spec, wo) < 0.1))
         p.furnace = p.albedo = std::nullopt;
     // The bare lobe's weights are at most 1; those of an added lobe at most 1.5 times what it
-    // returns, or of Beckmann's beta form twice.
-    const double added = beta && spec.distribution == DistributionKind::beckmann ? 2 : 1.5;
-    if (compensates) p.weight = std::max(largest_gain(spec, wo), adds ? added : 1.0);
+    // returns, or of Beckmann's beta form and of a tail, which is sampled without its tilt, twice.
+    const bool tail = std::holds_alternative<shaders::Tail>(spec.method);
+    const bool twice = tail || (beta && spec.distribution == DistributionKind::beckmann);
+    if (compensates) p.weight = std::max(largest_gain(spec, wo), twice ? 2 : adds ? 1.5 : 1.0);
     return p;
 }
 

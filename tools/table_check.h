@@ -58,7 +58,8 @@ SpotTolerance spot_tolerance(const std::string& table);
 /// Twice the error that the file says: that of three axes is taken in the middle of cells only.
 SpotTolerance spot_tolerance(const luts::Table& table);
 
-/// At `spots` places spread over the part of the table that its error is promised for.
+/// At `spots` places spread over the part of the table that its error is promised for; at most 10
+/// where an exact number takes random walks.
 TableCheck check_spots(const std::string& name, const TableView& shipped,
                        const SpotTolerance& tolerance, const std::string& against, int spots);
 

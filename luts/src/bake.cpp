@@ -49,7 +49,8 @@ Lattice integrate(const Definition& d, const BakeProgress& progress)
     // One axis is quick; with two, six checks along a cell see all there is; with three, the
     // middles have to do.
     const bool halves = d.depth > 1 || d.family.kind == Family::Kind::later ||
-                        (d.height > 1 && d.family.kind == Family::Kind::average);
+                        (d.height > 1 && d.family.kind == Family::Kind::average) ||
+                        d.family.kind == Family::Kind::shape;
     l.between = halves ? 2 : d.height > 1 ? 6 : 32;
     l.width = points(d.width, l.between);
     l.height = points(d.height, l.between);
@@ -281,7 +282,8 @@ void append(std::vector<std::string>& names, const std::vector<std::string>& mor
 
 std::vector<std::string> compiled_in_tables()
 {
-    return {"ggx_E_ss", "ggx_E_avg", "ggx_falloff", "ggx_dip", "ggx_q_ms", "ggx_mu_ms"};
+    return {"ggx_E_ss",  "ggx_E_avg",  "ggx_falloff", "ggx_dip", "ggx_q_ms",
+            "ggx_mu_ms", "ggx_spread", "ggx_forward", "ggx_tilt"};
 }
 
 std::vector<std::string> shipped_tables()
@@ -289,7 +291,8 @@ std::vector<std::string> shipped_tables()
     std::vector<std::string> names = compiled_in_tables();
     // By family, so that each is integrated once.
     for (const char* distribution : {"beckmann", "gtr", "std"})
-        for (const char* quantity : {"E_ss", "falloff", "dip", "E_avg", "q_ms", "mu_ms"})
+        for (const char* quantity :
+             {"E_ss", "falloff", "dip", "E_avg", "q_ms", "mu_ms", "spread", "forward", "tilt"})
             names.push_back(std::string(distribution) + "_" + quantity);
     append(names, dielectric_table_names("ggx"));
     append(names, dielectric_table_names("beckmann"));

@@ -12,8 +12,11 @@ namespace {
 #include "builtin/ggx_E_ss.inc"
 #include "builtin/ggx_dip.inc"
 #include "builtin/ggx_falloff.inc"
+#include "builtin/ggx_forward.inc"
 #include "builtin/ggx_mu_ms.inc"
 #include "builtin/ggx_q_ms.inc"
+#include "builtin/ggx_spread.inc"
+#include "builtin/ggx_tilt.inc"
 
 }  // namespace
 
@@ -26,6 +29,9 @@ MicrofacetTables ggx_tables()
     tables.dip = ggx_dip;
     tables.q_ms = ggx_q_ms;
     tables.mu_ms = ggx_mu_ms;
+    tables.spread = ggx_spread;
+    tables.forward = ggx_forward;
+    tables.tilt = ggx_tilt;
     return tables;
 }
 
@@ -37,6 +43,9 @@ TableView builtin_table(const std::string& name)
     if (name == "ggx_dip") return ggx_dip;
     if (name == "ggx_q_ms") return ggx_q_ms;
     if (name == "ggx_mu_ms") return ggx_mu_ms;
+    if (name == "ggx_spread") return ggx_spread;
+    if (name == "ggx_forward") return ggx_forward;
+    if (name == "ggx_tilt") return ggx_tilt;
     return {};
 }
 

@@ -24,6 +24,8 @@ constexpr int table_nodes = 32;
 // 2^17 walks, and as exact as these.
 constexpr int later_nodes = 12, later_node_accuracy = 128, later_check_accuracy = 32,
               walks_per_accuracy = 1024;
+// Of a shape there is one for all cosines.
+constexpr int shape_nodes = 24, shape_node_accuracy = 512, shape_check_accuracy = 128;
 // Along the surface all is reflected, and no light is left for a second bounce.
 constexpr double least_later_cosine = 0.01;
 
@@ -104,7 +106,8 @@ double correlated_share(const Values& v) { return share(v[0], v[1], v[3]); }
 double beta_share(const Values& v) { return share(v[0], v[2], v[3]); }
 
 const char* const distributions[] = {"ggx", "beckmann", "gtr", "std"};
-const char* const directional[] = {"E_ss", "E_avg", "falloff", "dip", "q_ms", "mu_ms"};
+const char* const directional[] = {"E_ss",  "E_avg",  "falloff", "dip", "q_ms",
+                                   "mu_ms", "spread", "forward", "tilt"};
 const char* const shadowings[] = {"correlated", "beta"};
 const char* const sides[] = {"outside", "inside"};
 
@@ -118,7 +121,8 @@ bool is_tailed(const std::string& distribution)
     throw std::invalid_argument(
         "no table is called '" + name + "'" + why +
         "; there are DISTRIBUTION_QUANTITY with ggx, beckmann, gtr, std and E_ss, E_avg, falloff, "
-        "dip, q_ms, mu_ms, and DISTRIBUTION_QUANTITY_SHADOWING_SIDE with E_S, R_share; correlated, "
+        "dip, q_ms, mu_ms, spread, forward, tilt, and DISTRIBUTION_QUANTITY_SHADOWING_SIDE with "
+        "E_S, R_share; correlated, "
         "beta; "
         "outside, inside; there gtr and std take their gamma: gtr_1.3_E_S_beta_inside");
 }
@@ -169,10 +173,17 @@ SlopeLaw Family::law(double y, double z) const
 std::vector<Family::Values> Family::row(const std::vector<double>& xs, double y, double z,
                                         int nodes) const
 {
-    if (kind != Kind::average) return row(law(y, z), xs, y, z, nodes);
+    if (kind != Kind::average && kind != Kind::shape) return row(law(y, z), xs, y, z, nodes);
     std::vector<Values> values;
     for (double x : xs)
     {
+        if (kind == Kind::shape)
+        {
+            const LaterShape shape =
+                later_shape(distribution, alpha_at(x), tail_at(y), nodes * walks_per_accuracy);
+            values.push_back({std::sqrt(shape.k), shape.m, shape.c, 0});
+            continue;
+        }
         const SlopeLaw law = SlopeLaw::named(distribution, alpha_at(x), tail_at(y));
         values.push_back({average_albedo(law, {nodes}), 0, 0, 0});
     }
@@ -230,6 +241,7 @@ std::vector<Family::Values> Family::row(const SlopeLaw& law, const std::vector<d
 bool Family::promised(double x, double y, double z, double share) const
 {
     if (kind == Kind::average) return !has_tail_axis() || alpha_of_tailed(x) >= 5e-4;
+    if (kind == Kind::shape) return alpha_at(x) >= 0.2;
     if (kind == Kind::dielectric)
         return mu_of_dielectric(x, y, eta_of_coordinate(z, inside, near_index)) >= 0.018 * share;
     if (kind == Kind::later) return alpha_at(y) >= 0.1 && x * x >= 0.02;
@@ -260,9 +272,10 @@ Definition Definition::of(const std::string& name)
         if (rest == quantity)
         {
             info.quantity = quantity;
-            const bool average = rest == "E_avg";
+            const bool shape = rest == "spread" || rest == "forward" || rest == "tilt";
+            const bool average = rest == "E_avg" || shape;
             d.family.kind = average ? Family::Kind::average : Family::Kind::directional;
-            d.fitted = average || rest == "E_ss";
+            d.fitted = rest == "E_avg" || rest == "E_ss";
             d.value = rest == "falloff" ? second : rest == "dip" ? third : first;
             info.method = "Gauss-Legendre over the disc of upward slopes";
             if (d.fitted) info.method += ", nodes levelled for the least largest error";
@@ -314,6 +327,20 @@ Definition Definition::of(const std::string& name)
                                               : 1;
                 info.offset = d.lowest;
                 info.scale = (d.highest - d.lowest) / 65535;
+            }
+            if (shape)
+            {
+                d.family.kind = Family::Kind::shape;
+                d.value = rest == "spread" ? first : rest == "forward" ? second : third;
+                d.width = shape_nodes;
+                if (tailed) d.height = later_nodes;
+                d.node_accuracy = tailed ? later_node_accuracy : shape_node_accuracy;
+                d.check_accuracy = tailed ? later_check_accuracy : shape_check_accuracy;
+                d.lowest = info.offset = rest == "tilt" ? -4 : 0;
+                // All of it may go on ahead.
+                info.scale = rest == "tilt" ? 0x1p-12 : rest == "spread" ? 0x1p-14 : 1.0 / 65535;
+                d.highest = info.offset + 65535 * info.scale;
+                info.method = "random walks, 1024 for each of as many nodes as said";
             }
             if (rest == "q_ms" || rest == "mu_ms")
             {

@@ -18,6 +18,7 @@ struct Family
         directional,  // E_ss, falloff, dip
         average,      // E_avg
         later,        // q_ms, mu_ms
+        shape,        // spread, forward, tilt
         dielectric    // E^R, correlated E^T, E^T in the beta form, w F(mu)
     };
     using Values = std::array<double, 4>;

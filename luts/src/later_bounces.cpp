@@ -3,7 +3,9 @@
 
 #include <regain/luts/later_bounces.h>
 
+#include <regain/closures/azimuth_spread.h>
 #include <regain/closures/beckmann.h>
+#include <regain/closures/constant_fresnel.h>
 #include <regain/closures/ggx.h>
 #include <regain/closures/gtr.h>
 #include <regain/closures/std.h>
@@ -13,6 +15,7 @@
 #include <array>
 #include <cmath>
 #include <stdexcept>
+#include <vector>
 
 REGAIN_NAMESPACE_BEGIN
 namespace luts {
@@ -89,13 +92,13 @@ Sums walk(const Distribution& distribution, double mu, int walks)
     return sums;
 }
 
-// The least of a function on [0, 1] that falls and then rises.
+// The least of a function on [0, 1] that falls and then rises, within 0.618^steps.
 template <class F>
-double least(const F& f)
+double least(const F& f, int steps)
 {
     constexpr double golden = 0.61803398874989484820;
     double low = 0, high = 1;
-    for (int i = 0; i < 40; ++i)
+    for (int i = 0; i < steps; ++i)
     {
         const double a = high - golden * (high - low), b = low + golden * (high - low);
         if (f(a) < f(b))
@@ -128,8 +131,101 @@ LaterBounces fitted(const Sums& sums, double alpha, double mu, double E_ss, int 
         }
         return sum;
     };
-    result.mu = least(error);
+    result.mu = least(error, 40);
     return result;
+}
+
+// A walk of two facets or more.
+struct Leaving
+{
+    double mu_o, mu_i;
+    double azimuth;  // from straight ahead
+};
+
+template <class Distribution>
+std::vector<Leaving> leaving(const Distribution& distribution, int walks)
+{
+    using White = Walk<Distribution, ConstantFresnel<double>>;
+    const White closure(distribution, ConstantFresnel<double>());
+    const Vec3<double> start = RandomStream<double>({0.5, 0.5, 0.25}).next3();
+    std::vector<Leaving> all;
+    for (int i = 0; i < walks; ++i)
+    {
+        // Cosine-weighted, in an order that has nothing to do with the walks' numbers.
+        const double u = std::fmod(i * 0.41421356237309505, 1.0), mu = std::sqrt(u);
+        const Vec3<double> wo(std::sqrt(1 - u), 0, mu);
+        const auto path = closure.prepare(wo).path(detail::shifted_numbers(start, i));
+        if (path.bounces > 1.5 && path.escaped)
+            all.push_back({mu, path.wi.z, AzimuthSpread<double>::azimuth(wo, path.wi)});
+    }
+    return all;
+}
+
+double tilt_of(const std::vector<Leaving>& all)
+{
+    const double n = static_cast<double>(all.size());
+    double mean = 0, product = 0, square = 0;
+    for (const Leaving& w : all) mean += (w.mu_o + w.mu_i) / (2 * n);
+    for (const Leaving& w : all)
+    {
+        const double a = w.mu_o - mean, b = w.mu_i - mean;
+        product += a * b / n;
+        square += (a * a + b * b) / (2 * n);
+    }
+    // Its variance is 1 / (n square^2), that of what is usual a third: so what a few walks say by
+    // chance is hardly believed.
+    const double believed = 3 / (square * square);
+    return product / (square * square) * n / (n + believed);
+}
+
+LaterShape shape_of(const std::vector<Leaving>& all, double alpha)
+{
+    // Where nothing goes on ahead, or nothing goes on at all, k means nothing.
+    const double usual_k = std::log(0.27 * alpha);
+    LaterShape shape{std::exp(usual_k), 0, 0};
+    if (all.size() < 16) return shape;
+    // More would make P negative somewhere, but where the mean cosine is tiny.
+    shape.c = std::clamp(tilt_of(all), -3.0, 8.0);
+
+    using Spread = AzimuthSpread<double>;
+    const std::size_t step = 1 + all.size() / 8192;
+    const auto unlikeliness = [&](double log_k, double m) {
+        const Spread spread(std::exp(log_k), m);
+        double sum = 0;
+        for (std::size_t i = 0; i < all.size(); i += step)
+        {
+            const auto polar = [](double mu) {
+                return Spread::Polar{mu, std::sqrt((1 - mu) * (1 + mu))};
+            };
+            const auto about = spread.about(polar(all[i].mu_o), polar(all[i].mu_i));
+            sum -= std::log(std::max(about.relative_density(all[i].azimuth), 1e-12));
+        }
+        return sum / static_cast<double>(all.size() / step + 1) +
+               3e-4 * (log_k - usual_k) * (log_k - usual_k);
+    };
+    double x = 0.5, m = 0.5;  // x from 0 to 1 is log k from -9 to 2
+    constexpr int steps = 24;
+    const auto log_k = [](double place) { return -9 + 11 * place; };
+    for (int round = 0; round < 5; ++round)
+    {
+        x = least([&](double place) { return unlikeliness(log_k(place), m); }, steps);
+        m = least([&](double place) { return unlikeliness(log_k(x), place); }, steps);
+    }
+    shape.k = std::exp(log_k(x));
+    shape.m = m;
+    return shape;
+}
+
+// visit(distribution).
+template <class Visit>
+auto with_distribution(const std::string& name, double alpha, double gamma, const Visit& visit)
+{
+    if (name == "ggx") return visit(GGX<double>(alpha));
+    if (name == "beckmann") return visit(Beckmann<double>(alpha));
+    if (name == "gtr") return visit(GTR<double>(alpha, gamma));
+    if (name == "std") return visit(STD<double>(alpha, gamma));
+    throw std::invalid_argument("no distribution is called '" + name +
+                                "'; there are ggx, beckmann, gtr, std");
 }
 
 }  // namespace
@@ -137,15 +233,15 @@ LaterBounces fitted(const Sums& sums, double alpha, double mu, double E_ss, int 
 LaterBounces later_bounces(const std::string& distribution, double alpha, double gamma, double mu,
                            double E_ss, int walks)
 {
-    const auto of = [&](const auto& d) {
+    return with_distribution(distribution, alpha, gamma, [&](const auto& d) {
         return fitted(walk(d, mu, walks), alpha, mu, E_ss, walks);
-    };
-    if (distribution == "ggx") return of(GGX<double>(alpha));
-    if (distribution == "beckmann") return of(Beckmann<double>(alpha));
-    if (distribution == "gtr") return of(GTR<double>(alpha, gamma));
-    if (distribution == "std") return of(STD<double>(alpha, gamma));
-    throw std::invalid_argument("no distribution is called '" + distribution +
-                                "'; there are ggx, beckmann, gtr, std");
+    });
+}
+
+LaterShape later_shape(const std::string& distribution, double alpha, double gamma, int walks)
+{
+    return with_distribution(distribution, alpha, gamma,
+                             [&](const auto& d) { return shape_of(leaving(d, walks), alpha); });
 }
 
 }  // namespace luts

@@ -168,6 +168,13 @@ void add_later_bounces(MicrofacetTables& tables, const std::string& distribution
     tables.mu_ms = table_named(distribution + "_mu_ms");
 }
 
+void add_later_shape(MicrofacetTables& tables, const std::string& distribution)
+{
+    tables.spread = table_named(distribution + "_spread");
+    tables.forward = table_named(distribution + "_forward");
+    tables.tilt = table_named(distribution + "_tilt");
+}
+
 DielectricTables dielectric_tables(const std::string& distribution, TransmissionShadowing shadowing,
                                    double gamma)
 {

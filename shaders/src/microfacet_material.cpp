@@ -16,6 +16,7 @@ std::vector<Compensation> every_compensation()
     std::vector<Compensation> all(std::begin(all_methods), std::end(all_methods));
     all.push_back(Directional{});
     all.insert(all.end(), std::begin(all_kulla_conty_forms), std::end(all_kulla_conty_forms));
+    all.push_back(Tail{});
     all.push_back(RandomWalk{});
     all.push_back(BurleySheen{});
     return all;
@@ -53,6 +54,7 @@ std::string_view name(const Compensation& compensation)
     if (const auto* method = std::get_if<Method>(&compensation)) return regain::name(*method);
     if (const auto* form = std::get_if<KullaContyForm>(&compensation)) return regain::name(*form);
     if (std::holds_alternative<Directional>(compensation)) return "directional";
+    if (std::holds_alternative<Tail>(compensation)) return "tail";
     return std::holds_alternative<RandomWalk>(compensation) ? "walk" : "burley-sheen";
 }
 
@@ -118,7 +120,10 @@ void MicrofacetMaterial::bind_tables(bool for_albedo)
         (interface->mode == ScatterMode::R && !std::holds_alternative<KullaContyForm>(method)))
     {
         _tables = luts::microfacet_tables(names);
-        if (std::holds_alternative<Directional>(method)) luts::add_later_bounces(_tables, names);
+        const bool tail = std::holds_alternative<Tail>(method);
+        if (tail || std::holds_alternative<Directional>(method))
+            luts::add_later_bounces(_tables, names);
+        if (tail) luts::add_later_shape(_tables, names);
     }
     else if (gains || (for_albedo && !is_walk))
         _interface_tables = luts::dielectric_tables(names, interface->shadowing, gamma);

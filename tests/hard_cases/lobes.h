@@ -13,6 +13,7 @@
 #include <regain/closures/dielectric_kulla_conty.h>
 #include <regain/closures/dielectric_walk.h>
 #include <regain/closures/directional_gain.h>
+#include <regain/closures/fitted_tail.h>
 #include <regain/closures/generalized_schlick.h>
 #include <regain/closures/kulla_conty.h>
 #include <regain/closures/thin_dielectric.h>
@@ -69,6 +70,12 @@ public:
             add(Lobe::schlick, name(form), [=](const Parameters& s) {
                 return kulla_conty(schlick(s), form, mirror_tables(d), strength(s));
             });
+        add(Lobe::schlick, "tail", [=](const Parameters& s) {
+            MicrofacetTables tables = mirror_tables(d);
+            luts::add_later_bounces(tables, d);
+            luts::add_later_shape(tables, d);
+            return fitted_tail(schlick(s), tables, strength(s));
+        });
         add_glass();
         add(Lobe::schlick, "walk", [=](const Parameters& s) {
             return Walk<Distribution, SchlickFresnel<Number>>(distribution(s), schlick_curve(s), 1,

@@ -109,7 +109,7 @@ struct Kind
     bool has_tail() const { return distribution == "gtr" || distribution == "std"; }
     bool is_walk() const { return method == "walk"; }
     bool is_bare() const { return method == "none"; }
-    bool has_added_lobe() const { return method.rfind("kulla-conty", 0) == 0; }
+    bool has_added_lobe() const { return method == "tail" || method.rfind("kulla-conty", 0) == 0; }
 };
 
 /// Every combination that docs/support.md lists; of vectors, those of the shortest code.

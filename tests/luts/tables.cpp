@@ -284,14 +284,22 @@ TEST(Tables, files_match_their_definition)
         const bool solid = table.depth() > 1, relative = table.info().error_kind == "relative";
         // Of walks an integral is an estimate, and the same only by the same walks.
         const bool walked = table.info().method.find("walks") != std::string::npos;
+        const bool of_shape = walked && table.info().axis_x != "sqrt(mu)";
         Random random(8);
         double worst = 0;
-        for (int i = 0; i < (walked ? 12 : solid ? 25 : name == "ggx_E_ss" ? 200 : 60);)
+        for (int i = 0; i < (of_shape             ? 2
+                             : walked             ? 12
+                             : solid              ? 25
+                             : name == "ggx_E_ss" ? 200
+                                                  : 60);)
         {
             luts::TablePoint at{random.unit(), random.unit(), solid ? random.unit() : 0};
             if (!luts::is_error_promised(name, at)) continue;
             ++i;
-            double exact = luts::exact_value(name, at, solid ? 24 : 32);
+            double exact = luts::exact_value(name, at,
+                                             of_shape ? table.info().nodes
+                                             : solid  ? 24
+                                                      : 32);
             double found = luts::interpolated(table.view(), at);
             if (luts::is_logarithmic(name)) exact = std::exp(exact), found = std::exp(found);
             if (relative && exact < luts::smallest_promised(name)) continue;
@@ -301,13 +309,11 @@ TEST(Tables, files_match_their_definition)
         EXPECT_LT(worst, table.info().error * (solid ? 1.5 : 1.05) + 3e-5) << name;
 
         if (relative) continue;
-        for (int i = 0; i < (walked ? 4 : 12); ++i)
+        for (int i = 0; i < (of_shape ? 1 : walked ? 4 : 12); ++i)
         {
             const auto node = [&](int length) { return static_cast<int>(random.unit() * length); };
             const int x = node(table.width()), y = node(table.height()), z = node(table.depth());
-            const auto along = [](int node, int length) {
-                return node / std::max(1.0, length - 1.0);
-            };
+            const auto along = [](int k, int length) { return k / std::max(1.0, length - 1.0); };
             const luts::TablePoint at{along(x, table.width()), along(y, table.height()),
                                       along(z, table.depth())};
             const float stored = table.values()[static_cast<std::size_t>(

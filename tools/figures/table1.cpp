@@ -13,6 +13,7 @@
 #include <regain/closures/conductor_fresnel.h>
 #include <regain/closures/constant_fresnel.h>
 #include <regain/closures/directional_gain.h>
+#include <regain/closures/fitted_tail.h>
 #include <regain/closures/ggx.h>
 #include <regain/closures/kulla_conty.h>
 #include <regain/closures/schlick_fresnel.h>
@@ -206,6 +207,15 @@ auto with_added_lobe(KullaContyForm form)
                            luts::ggx_tables());
     };
 }
+auto with_tail()
+{
+    return [](const auto& distribution, const auto& fresnel) {
+        using Distribution = std::decay_t<decltype(distribution)>;
+        using Fresnel = std::decay_t<decltype(fresnel)>;
+        return fitted_tail(MicrofacetReflection<Distribution, Fresnel>(distribution, fresnel),
+                           luts::ggx_tables());
+    };
+}
 auto walking()
 {
     return [](const auto& distribution, const auto& fresnel) {
@@ -341,6 +351,10 @@ Figure make_table1(const Request& request)
         E_ss + bytes(tables.q_ms) + bytes(tables.mu_ms));
     for (const KullaContyForm form : all_kulla_conty_forms)
         add(std::string(name(form)), "added lobe", with_added_lobe(form), E_ss);
+    add("tail", "added lobe", with_tail(),
+        E_ss + bytes(tables.falloff) + bytes(tables.dip) + bytes(tables.q_ms) +
+            bytes(tables.mu_ms) + bytes(tables.spread) + bytes(tables.forward) +
+            bytes(tables.tilt));
     add("walk", "replaces the lobe", walking(), 0);
     std::vector<Clocked> clocks;
     for (const Row& row : rows) clocks.push_back(row.clocked);

@@ -162,11 +162,8 @@ public:
             const TableAxes<Real> axes(_lobe._distribution);
             const Real mu = _wo.z;
             const Real E = detail::select(_delta, Real(1), tables.albedo(axes, mu));
-            FresnelMoments<Real> moments = FresnelMoments<Real>::at(mu);
-            moments.falloff += axes.directional(tables.falloff, mu);
-            moments.dip += axes.directional(tables.dip, mu);
-            const Color F =
-                detail::select(_delta, _lobe._fresnel.at(mu), _lobe._fresnel.mean(moments));
+            const Color F = detail::select(_delta, _lobe._fresnel.at(mu),
+                                           _lobe._fresnel.mean(tables.moments(axes, mu)));
             return F * _weight * E;
         }
 

@@ -81,6 +81,20 @@ public:
     /// nothing is missing.
     Real average() const { return _average; }
 
+    /// 2 int_0^1 (1 - E) g mu dmu, by the same nodes as average(), which is that of g = 1. `loss`
+    /// is what the object was built of; g(mu) answers numbers or colours.
+    template <class Loss, class G>
+    auto average_of(const Loss& loss, const G& g) const
+    {
+        using Value = std::decay_t<decltype(g(Real(1)))>;
+        Value sum(Real(0));
+        for (const Piece& piece : _piece)
+            visit_nodes(piece, [&](int i, Real mu, Real slope) {
+                sum += g(mu) * (loss(mu) * mu * slope * corrected_weight(i));
+            });
+        return sum * Real(2);
+    }
+
     /// Density of mu in [0, 1]; integrates to 1.
     Real density(Real mu) const
     {
@@ -160,6 +174,8 @@ private:
     // critical cosines too low to.
     static constexpr double least_density = 0.02, least_length = 1e-6, least_critical = 2e-3;
 
+    static constexpr bool vanishes = pieces == 1;  // what is missing, like mu^2 at its start
+
     struct Piece
     {
         Real start, sign, length;
@@ -172,9 +188,18 @@ private:
     template <class Loss>
     void measure(Piece& piece, const Loss& loss, Real& mass, Real& integral) const
     {
-        const bool vanishes = pieces == 1;  // like mu^2 at its start
         piece.log_range = detail::log1p(piece.length / _width);
         piece.inv_log_range = Real(1) / detail::max(piece.log_range, detail::constant<Real>(1e-12));
+        visit_nodes(piece, [&](int i, Real mu, Real slope) {
+            piece.node[i] = loss(mu) * mu * slope;
+            mass += piece.node[i] * detail::constant<Real>((i % cells ? 1.0 : 0.5) / cells);
+            integral += piece.node[i] * corrected_weight(i);
+        });
+    }
+    // visit(i, mu, dmu/ds) for each node but one where mu is 0.
+    template <class Visit>
+    void visit_nodes(const Piece& piece, const Visit& visit) const
+    {
         // From node to node width + distance grows by a factor.
         const Real step = detail::exp(piece.log_range * detail::constant<Real>(1.0 / cells));
         Real shifted = _width;
@@ -183,12 +208,13 @@ private:
             if (i == 0 && vanishes) continue;
             const Real distance = detail::min(detail::max(shifted - _width, Real(0)), piece.length);
             const Real t = piece.start + piece.sign * distance;
-            const Real mu = detail::saturate(cosine(t));
-            piece.node[i] = loss(mu) * mu * shifted * piece.log_range * derivative(t);
-            mass += piece.node[i] * detail::constant<Real>((i % cells ? 1.0 : 0.5) / cells);
-            const double weight = gregory(cells - i) * (vanishes ? 1 : gregory(i));
-            integral += piece.node[i] * detail::constant<Real>(weight / cells);
+            visit(i, detail::saturate(cosine(t)), shifted * piece.log_range * derivative(t));
         }
+    }
+    // Of a node in the integral over s.
+    static Real corrected_weight(int i)
+    {
+        return detail::constant<Real>(gregory(cells - i) * (vanishes ? 1 : gregory(i)) / cells);
     }
     // t of a cosine and dmu/dt there, and the ways back.
     struct Place

@@ -43,6 +43,7 @@ struct NumberTraits<Real, std::enable_if_t<std::is_floating_point_v<Real>>>
     static Real sqrt(Real x) { return std::sqrt(x); }
     static Real sin(Real x) { return std::sin(x); }
     static Real cos(Real x) { return std::cos(x); }
+    static Real asin(Real x) { return std::asin(x); }
     static Real pow(Real x, Real y) { return std::pow(x, y); }
     static Real exp(Real x) { return std::exp(x); }
     static Real log(Real x) { return std::log(x); }
@@ -139,6 +140,12 @@ template <class T>
 T cos(const T& x)
 {
     return NumberTraits<T>::cos(x);
+}
+/// x in [-1, 1].
+template <class T>
+T asin(const T& x)
+{
+    return NumberTraits<T>::asin(x);
 }
 template <class T>
 T pow(const T& x, const T& y)

@@ -24,6 +24,7 @@
 #pragma once
 
 #include <regain/closures/distribution.h>
+#include <regain/closures/fresnel_moments.h>
 
 #include <cstdint>
 
@@ -181,6 +182,8 @@ struct MicrofacetTables
     TableView falloff, dip;
     /// Of the bounces after the first, over (sqrt(mu), y[, z]): see directional_gain.h.
     TableView q_ms, mu_ms;
+    /// Of the same bounces, over (y[, z]): see azimuth_spread.h and fitted_tail.h.
+    TableView spread, forward, tilt;
     /// E_ss and E_avg hold natural logarithms: where they fall to a few hundredths, straight lines
     /// between those err less.
     bool logarithmic = false;
@@ -190,6 +193,15 @@ struct MicrofacetTables
     Real albedo(const TableAxes<Real>& axes, Real mu) const
     {
         return detail::min(value(axes.directional(E_ss, mu)), Real(1));
+    }
+    /// The Fresnel moments of what is scattered once, at the cosine mu in [0, 1].
+    template <class Real>
+    FresnelMoments<Real> moments(const TableAxes<Real>& axes, Real mu) const
+    {
+        FresnelMoments<Real> m = FresnelMoments<Real>::at(mu);
+        m.falloff += axes.directional(falloff, mu);
+        m.dip += axes.directional(dip, mu);
+        return m;
     }
     template <class Real>
     Real average_albedo(const TableAxes<Real>& axes) const

@@ -44,6 +44,7 @@ struct NumberTraits<xsimd::batch<T, Arch>>
     static Batch sqrt(const Batch& x) { return xsimd::sqrt(x); }
     static Batch sin(const Batch& x) { return xsimd::sin(x); }
     static Batch cos(const Batch& x) { return xsimd::cos(x); }
+    static Batch asin(const Batch& x) { return xsimd::asin(x); }
     /// x not negative.
     static Batch pow(const Batch& x, const Batch& y)
     {

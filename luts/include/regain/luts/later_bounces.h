@@ -35,5 +35,19 @@ struct LaterBounces
 REGAIN_LUTS_API LaterBounces later_bounces(const std::string& distribution, double alpha,
                                            double gamma, double mu, double E_ss, int walks);
 
+/// The shape of what leaves after two facets or more, in the terms of the method `tail`
+/// (regain/closures/fitted_tail.h, azimuth_spread.h).
+struct LaterShape
+{
+    double k,
+        m;  ///< of the spread in azimuth: variance in rad^2, and the share of it that goes on ahead
+    double c;  ///< of P: Cov(mu_o, mu_i) / (Var(mu_o) Var(mu_i)) over such walks
+};
+
+/// From `walks` walks whose wo are cosine-weighted; c from their moments, k and m by largest
+/// likelihood. The rest as above.
+REGAIN_LUTS_API LaterShape later_shape(const std::string& distribution, double alpha, double gamma,
+                                       int walks);
+
 }  // namespace luts
 REGAIN_NAMESPACE_END

@@ -41,6 +41,9 @@ REGAIN_LUTS_API MicrofacetTables microfacet_tables(const std::string& distributi
 /// Adds q_ms and mu_ms of that distribution, which the method `directional` takes; errors as above.
 REGAIN_LUTS_API void add_later_bounces(MicrofacetTables& tables, const std::string& distribution);
 
+/// Adds spread, forward and tilt, which the method `tail` takes besides; errors as above.
+REGAIN_LUTS_API void add_later_shape(MicrofacetTables& tables, const std::string& distribution);
+
 /// The dielectric tables of a distribution; errors as above. gtr and std have tables for one gamma
 /// each, none of which is shipped: bake them.
 REGAIN_LUTS_API DielectricTables dielectric_tables(const std::string& distribution,

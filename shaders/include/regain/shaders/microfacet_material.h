@@ -26,6 +26,7 @@
 #include <regain/closures/dielectric_kulla_conty.h>
 #include <regain/closures/dielectric_walk.h>
 #include <regain/closures/directional_gain.h>
+#include <regain/closures/fitted_tail.h>
 #include <regain/closures/ggx.h>
 #include <regain/closures/gtr.h>
 #include <regain/closures/kulla_conty.h>
@@ -105,12 +106,16 @@ struct RandomWalk
 struct Directional
 {};
 
+/// The added lobe with the walk's shape.
+struct Tail
+{};
+
 /// Burley's 2015 addition to a lobe that is not compensated.
 struct BurleySheen
 {};
 
 /// Any method of compensation: a gain, an added lobe, a walk, a glow.
-using Compensation = std::variant<Method, Directional, KullaContyForm, RandomWalk, BurleySheen>;
+using Compensation = std::variant<Method, Directional, KullaContyForm, Tail, RandomWalk, BurleySheen>;
 
 REGAIN_SHADERS_API std::string_view name(const Compensation&);
 REGAIN_SHADERS_API std::optional<Compensation> compensation_named(std::string_view);
@@ -206,6 +211,8 @@ private:
             return visit(directional(lobe, _tables, strength));
         if (const auto* form = std::get_if<KullaContyForm>(&method))
             return visit(kulla_conty(lobe, *form, _tables, strength));
+        if (std::holds_alternative<Tail>(method))
+            return visit(fitted_tail(lobe, _tables, strength));
         if (const auto* walk = random_walk(strength))
             return visit(Walk(lobe.distribution(), lobe.fresnel(), walk->eval_samples, _tables));
         if (std::holds_alternative<BurleySheen>(method)) return visit(burley_sheen(lobe, strength));

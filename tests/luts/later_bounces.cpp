@@ -20,8 +20,8 @@ luts::LaterBounces ggx(double alpha, double mu, int walks)
     return luts::later_bounces("ggx", alpha, 0, mu, luts::ggx_albedo(mu, alpha), walks);
 }
 
-// By another program, in its own way, walks on GGX of alpha 1 meet 2.30 facets on average from normal
-// incidence. Of the 1 - E_ss = ln 2 that meet a second one, that is 1.30 / ln 2 more.
+// By another program, in its own way, walks on GGX of alpha 1 meet 2.30 facets on average from
+// normal incidence. Of the 1 - E_ss = ln 2 that meet a second one, that is 1.30 / ln 2 more.
 TEST(LaterBounces, q_is_what_the_mean_depth_says)
 {
     EXPECT_NEAR(ggx(1, 1, 1 << 17).q, 1 - std::log(2.0) / 1.30, 5e-3);

@@ -115,7 +115,8 @@ struct BurleySheen
 {};
 
 /// Any method of compensation: a gain, an added lobe, a walk, a glow.
-using Compensation = std::variant<Method, Directional, KullaContyForm, Tail, RandomWalk, BurleySheen>;
+using Compensation =
+    std::variant<Method, Directional, KullaContyForm, Tail, RandomWalk, BurleySheen>;
 
 REGAIN_SHADERS_API std::string_view name(const Compensation&);
 REGAIN_SHADERS_API std::optional<Compensation> compensation_named(std::string_view);

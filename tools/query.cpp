@@ -42,8 +42,8 @@ fields of a line
   thin_walled   of dielectric: true for a sheet; tint: [r,g,b] of all that it scatters
   color, weight of sheen; default 1
   method      none (default), normalise, turquin, turquin-eq12, turquin-eq13, turquin-eq14, series,
-              directional, kulla-conty, kulla-conty-series, tail, walk, burley-sheen; docs/support.md says what
-              goes with what
+              directional, kulla-conty, kulla-conty-series, tail, walk, burley-sheen;
+              docs/support.md says what goes with what
   strength    of the method, in [0, 1]; default 1; 0 or 1 for walk
   precision   float (default), double
   transport   importance (default), radiance: transmitted values and weights times the squared ratio

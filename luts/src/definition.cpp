@@ -122,9 +122,8 @@ bool is_tailed(const std::string& distribution)
         "no table is called '" + name + "'" + why +
         "; there are DISTRIBUTION_QUANTITY with ggx, beckmann, gtr, std and E_ss, E_avg, falloff, "
         "dip, q_ms, mu_ms, spread, forward, tilt, and DISTRIBUTION_QUANTITY_SHADOWING_SIDE with "
-        "E_S, R_share; correlated, "
-        "beta; "
-        "outside, inside; there gtr and std take their gamma: gtr_1.3_E_S_beta_inside");
+        "E_S, R_share; correlated, beta; outside, inside; there gtr and std take their gamma: "
+        "gtr_1.3_E_S_beta_inside");
 }
 
 }  // namespace
@@ -211,8 +210,6 @@ std::vector<Family::Values> Family::row(const SlopeLaw& law, const std::vector<d
                    : distribution == "beckmann" ? mu_of_plain_cosine(coordinate, alpha)
                                                 : mu_of_stretched_cosine(coordinate, alpha);
         };
-        // At mu = 0 all is reflected, but there is nothing left to take a mean of; next to it the
-        // limit can be read off.
         if (kind == Kind::later)
         {
             const double mu = std::max(x * x, least_later_cosine);
@@ -222,6 +219,8 @@ std::vector<Family::Values> Family::row(const SlopeLaw& law, const std::vector<d
             values.push_back({later.q, later.mu, 0, 0});
             continue;
         }
+        // At mu = 0 all is reflected, but there is nothing left to take a mean of; next to it the
+        // limit can be read off.
         const double mu = mu_at(std::max(x, 1e-3));
         const AlbedoMoments m = albedo_moments(law, mu, {nodes});
         const auto facet = FresnelMoments<double>::at(mu);

@@ -262,7 +262,8 @@ private:
         for (std::size_t corner = 0; corner < 8; ++corner)
             if (c.weight[corner] > 0) value += c.weight[corner] * _nodes[c.node + _offset[corner]];
         if (_logarithmic) return std::expm1(std::min(value, 0.0) - c.exact);
-        return _definition.fitted ? std::min(value, 1.0) / c.exact - 1 : value - c.exact;
+        return _definition.fitted ? std::min(value, _definition.greatest) / c.exact - 1
+                                  : value - c.exact;
     }
 
     const Definition& _definition;
@@ -282,8 +283,8 @@ void append(std::vector<std::string>& names, const std::vector<std::string>& mor
 
 std::vector<std::string> compiled_in_tables()
 {
-    return {"ggx_E_ss",  "ggx_E_avg",  "ggx_falloff", "ggx_dip", "ggx_q_ms",
-            "ggx_mu_ms", "ggx_spread", "ggx_forward", "ggx_tilt"};
+    return {"ggx_E_ss", "ggx_E_avg", "ggx_falloff", "ggx_dip",     "ggx_balance",
+            "ggx_q_ms", "ggx_mu_ms", "ggx_spread",  "ggx_forward", "ggx_tilt"};
 }
 
 std::vector<std::string> shipped_tables()
@@ -291,8 +292,8 @@ std::vector<std::string> shipped_tables()
     std::vector<std::string> names = compiled_in_tables();
     // By family, so that each is integrated once.
     for (const char* distribution : {"beckmann", "gtr", "std"})
-        for (const char* quantity :
-             {"E_ss", "falloff", "dip", "E_avg", "q_ms", "mu_ms", "spread", "forward", "tilt"})
+        for (const char* quantity : {"E_ss", "falloff", "dip", "E_avg", "balance", "q_ms", "mu_ms",
+                                     "spread", "forward", "tilt"})
             names.push_back(std::string(distribution) + "_" + quantity);
     append(names, dielectric_table_names("ggx"));
     append(names, dielectric_table_names("beckmann"));

@@ -10,6 +10,7 @@ namespace {
 // Written by `regain bake --embed` from the EXR files in data/.
 #include "builtin/ggx_E_avg.inc"
 #include "builtin/ggx_E_ss.inc"
+#include "builtin/ggx_balance.inc"
 #include "builtin/ggx_dip.inc"
 #include "builtin/ggx_falloff.inc"
 #include "builtin/ggx_forward.inc"
@@ -27,6 +28,7 @@ MicrofacetTables ggx_tables()
     tables.E_avg = ggx_E_avg;
     tables.falloff = ggx_falloff;
     tables.dip = ggx_dip;
+    tables.balance = ggx_balance;
     tables.q_ms = ggx_q_ms;
     tables.mu_ms = ggx_mu_ms;
     tables.spread = ggx_spread;
@@ -41,6 +43,7 @@ TableView builtin_table(const std::string& name)
     if (name == "ggx_E_avg") return ggx_E_avg;
     if (name == "ggx_falloff") return ggx_falloff;
     if (name == "ggx_dip") return ggx_dip;
+    if (name == "ggx_balance") return ggx_balance;
     if (name == "ggx_q_ms") return ggx_q_ms;
     if (name == "ggx_mu_ms") return ggx_mu_ms;
     if (name == "ggx_spread") return ggx_spread;

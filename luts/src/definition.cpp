@@ -7,18 +7,24 @@
 #include <regain/closures/fresnel_moments.h>
 #include <regain/closures/tail.h>
 #include <regain/luts/albedo_integral.h>
+#include <regain/luts/balance.h>
 #include <regain/luts/dielectric_integral.h>
 #include <regain/luts/later_bounces.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
+#include <optional>
 
 REGAIN_NAMESPACE_BEGIN
 namespace luts {
 namespace {
 
 constexpr int table_nodes = 32;
+
+// A furnace has the error of the balance twice, once for each end.
+constexpr int tailed_balance_nodes = 40, tailed_balance_alphas = 48;
 
 // What light does after the first bounce changes slowly with everything. A node is the mean of
 // 2^17 walks, and as exact as these.
@@ -106,8 +112,8 @@ double correlated_share(const Values& v) { return share(v[0], v[1], v[3]); }
 double beta_share(const Values& v) { return share(v[0], v[2], v[3]); }
 
 const char* const distributions[] = {"ggx", "beckmann", "gtr", "std"};
-const char* const directional[] = {"E_ss",  "E_avg",  "falloff", "dip", "q_ms",
-                                   "mu_ms", "spread", "forward", "tilt"};
+const char* const directional[] = {"E_ss", "E_avg", "falloff", "dip",     "balance",
+                                   "q_ms", "mu_ms", "spread",  "forward", "tilt"};
 const char* const shadowings[] = {"correlated", "beta"};
 const char* const sides[] = {"outside", "inside"};
 
@@ -121,7 +127,8 @@ bool is_tailed(const std::string& distribution)
     throw std::invalid_argument(
         "no table is called '" + name + "'" + why +
         "; there are DISTRIBUTION_QUANTITY with ggx, beckmann, gtr, std and E_ss, E_avg, falloff, "
-        "dip, q_ms, mu_ms, spread, forward, tilt, and DISTRIBUTION_QUANTITY_SHADOWING_SIDE with "
+        "dip, balance, q_ms, mu_ms, spread, forward, tilt, and "
+        "DISTRIBUTION_QUANTITY_SHADOWING_SIDE with "
         "E_S, R_share; correlated, beta; outside, inside; there gtr and std take their gamma: "
         "gtr_1.3_E_S_beta_inside");
 }
@@ -193,6 +200,8 @@ std::vector<Family::Values> Family::row(const SlopeLaw& law, const std::vector<d
                                         double y, double z, int nodes) const
 {
     std::vector<Values> values;
+    std::optional<Balance> balance;
+    if (kind == Kind::balance) balance.emplace(law, nodes);
     const double alpha = alpha_at(y), eta = eta_of_coordinate(z, inside, near_index);
     for (double x : xs)
     {
@@ -217,6 +226,11 @@ std::vector<Family::Values> Family::row(const SlopeLaw& law, const std::vector<d
                 later_bounces(distribution, alpha, tail_at(z), mu, albedo(law, mu, {}, {24}),
                               nodes * walks_per_accuracy);
             values.push_back({later.q, later.mu, 0, 0});
+            continue;
+        }
+        if (balance)
+        {
+            values.push_back({balance->at(mu_at(x)), 0, 0, 0});
             continue;
         }
         // At mu = 0 all is reflected, but there is nothing left to take a mean of; next to it the
@@ -340,6 +354,29 @@ Definition Definition::of(const std::string& name)
                 info.scale = rest == "tilt" ? 0x1p-12 : rest == "spread" ? 0x1p-14 : 1.0 / 65535;
                 d.highest = info.offset + 65535 * info.scale;
                 info.method = "random walks, 1024 for each of as many nodes as said";
+            }
+            if (rest == "balance")
+            {
+                d.family.kind = Family::Kind::balance;
+                d.fitted = true;
+                d.value = first;
+                d.greatest = std::numeric_limits<double>::infinity();
+                if (tailed)
+                {
+                    d.width = d.depth = tailed_balance_nodes;
+                    d.height = tailed_balance_alphas;
+                }
+                info.transform = "";
+                info.method =
+                    "Gauss-Legendre over the disc of upward slopes, balanced by Sinkhorn's "
+                    "iteration, nodes levelled for the least largest error";
+                info.error_kind = "relative";
+                d.node_accuracy = tailed ? 24 : 48;
+                d.check_accuracy = 24;
+                d.lowest = info.offset = 0;
+                // It grows to 2.06 of GGX, of STD to 7.6.
+                info.scale = tailed ? 0x1p-12 : 0x1p-14;
+                d.highest = 65535 * info.scale;
             }
             if (rest == "q_ms" || rest == "mu_ms")
             {

@@ -16,6 +16,7 @@ struct Family
 {
     enum class Kind {
         directional,  // E_ss, falloff, dip
+        balance,      // balance
         average,      // E_avg
         later,        // q_ms, mu_ms
         shape,        // spread, forward, tilt
@@ -60,6 +61,7 @@ struct Definition
     int width, height, depth;
     bool fitted;                   // levelled for the least largest relative error; else exact
     double lowest, highest;        // that a node can be
+    double greatest = 1;           // that look-ups answer
     double smallest_promised = 0;  // no error is promised of a quantity below this
     int node_accuracy, check_accuracy;
     // What nodes are rounded to for a small file.

@@ -168,6 +168,11 @@ void add_later_bounces(MicrofacetTables& tables, const std::string& distribution
     tables.mu_ms = table_named(distribution + "_mu_ms");
 }
 
+void add_balance(MicrofacetTables& tables, const std::string& distribution)
+{
+    tables.balance = table_named(distribution + "_balance");
+}
+
 void add_later_shape(MicrofacetTables& tables, const std::string& distribution)
 {
     tables.spread = table_named(distribution + "_spread");

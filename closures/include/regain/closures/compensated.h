@@ -39,9 +39,9 @@ public:
     {
     public:
         Prepared(const Compensated& closure, const Vec3<Real>& wo)
-            : _lobe(closure._lobe.prepare(wo)), _gain(closure._gain)
+            : _lobe(closure._lobe.prepare(wo)), _gain(closure._gain, _lobe.wo())
         {
-            _lobe.scale_by(_gain.at(_lobe.wo()));
+            _lobe.scale_by(closure._gain.at(_lobe.wo()));
         }
 
         decltype(auto) wo() const { return _lobe.wo(); }
@@ -52,7 +52,7 @@ public:
             if constexpr (depends_on_wi)
             {
                 const Vec3<Real> safe = detail::select(detail::is_direction(wi), wi, wo());
-                return _lobe.eval(wi) * _gain.pair(wo(), safe);
+                return _lobe.eval(wi) * _gain.pair(safe);
             }
             else
                 return _lobe.eval(wi);
@@ -65,7 +65,7 @@ public:
         Sample<Real> sample(const Vec3<Real>& u) const
         {
             Sample<Real> s = _lobe.sample(u);
-            if constexpr (depends_on_wi) s.weight *= _gain.pair(wo(), s.wi);
+            if constexpr (depends_on_wi) s.weight *= _gain.pair(s.wi);
             return s;
         }
 
@@ -81,7 +81,7 @@ public:
 
     private:
         typename Lobe::Prepared _lobe;
-        Gain _gain;
+        std::conditional_t<depends_on_wi, detail::PairGain<Gain, Real>, detail::NoPairGain> _gain;
     };
 
     Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }

@@ -14,7 +14,11 @@
 ///     static constexpr bool reciprocal = true;                keeps f(wo, wi) = f(wi, wo)
 ///     static constexpr bool energy_preserving = true;         makes the albedo 1 where F = 1
 ///
-/// Both are asked about unit directions only, whatever the closure is asked about.
+/// Both are asked about unit directions only, whatever the closure is asked about. What of a pair
+/// depends on wo alone can be kept in a nested type
+///
+///     Prepared(const Gain& gain, const Vec3<Real>& wo)       made once per shading point
+///     Color3<Real> pair(const Vec3<Real>& wi) const          asked in the place of pair(wo, wi)
 ///
 /// The gain of a direction pair is at(wo) * pair(wo, wi). It is finite, not negative, and
 /// dimensionless. No gain changes a direction or a pdf.
@@ -45,6 +49,32 @@ template <class Gain>
 struct GainDependsOnWi<Gain, std::void_t<decltype(Gain::depends_on_wi)>>
     : std::bool_constant<Gain::depends_on_wi>
 {};
+
+// A pair's gain with wo fixed.
+template <class Gain, class Real, class = void>
+class PairGain
+{
+public:
+    PairGain(const Gain& gain, const Vec3<Real>& wo) : _gain(gain), _wo(wo) {}
+    Color3<Real> pair(const Vec3<Real>& wi) const { return _gain.pair(_wo, wi); }
+
+private:
+    Gain _gain;
+    Vec3<Real> _wo;
+};
+template <class Gain, class Real>
+class PairGain<Gain, Real, std::void_t<typename Gain::Prepared>> : public Gain::Prepared
+{
+public:
+    using Gain::Prepared::Prepared;
+};
+// Of a gain that has none nothing is kept.
+struct NoPairGain
+{
+    template <class Gain, class Direction>
+    NoPairGain(const Gain&, const Direction&)
+    {}
+};
 
 template <class Gain, class = void>
 struct GainIsReciprocal : std::false_type

@@ -180,6 +180,9 @@ struct MicrofacetTables
     /// Over (x, y[, z]): the moments of fresnel_moments.h over all that is scattered once, each
     /// less its value at mu.
     TableView falloff, dip;
+    /// What leaves single scattering reciprocal and without loss, over (x, y[, z]): see
+    /// balanced_gain.h.
+    TableView balance;
     /// Of the bounces after the first, over (sqrt(mu), y[, z]): see directional_gain.h.
     TableView q_ms, mu_ms;
     /// Of the same bounces, over (y[, z]): see azimuth_spread.h and fitted_tail.h.

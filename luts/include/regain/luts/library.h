@@ -41,6 +41,10 @@ REGAIN_LUTS_API MicrofacetTables microfacet_tables(const std::string& distributi
 /// Adds q_ms and mu_ms of that distribution, which the method `directional` takes; errors as above.
 REGAIN_LUTS_API void add_later_bounces(MicrofacetTables& tables, const std::string& distribution);
 
+/// Adds the balance of single scattering, which the method `balanced` takes besides; errors as
+/// above.
+REGAIN_LUTS_API void add_balance(MicrofacetTables& tables, const std::string& distribution);
+
 /// Adds spread, forward and tilt, which the method `tail` takes besides; errors as above.
 REGAIN_LUTS_API void add_later_shape(MicrofacetTables& tables, const std::string& distribution);
 

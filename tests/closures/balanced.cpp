@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+// The gain of both directions: energy by quadrature over eval, reciprocity, colour against the
+// directional gain, which the walk is the measure of.
+
+#include "../support/closures.h"
+#include "../support/properties.h"
+#include "../support/reflection_integral.h"
+
+#include <regain/closures/balanced_gain.h>
+#include <regain/closures/beckmann.h>
+#include <regain/closures/gtr.h>
+#include <regain/closures/std.h>
+#include <regain/luts/balance.h>
+#include <regain/luts/library.h>
+
+#include <gtest/gtest.h>
+
+using namespace regain;
+using namespace regain::tests;
+
+namespace {
+
+using Triple = Color3<double>;
+
+MicrofacetTables tables_of(const std::string& distribution)
+{
+    MicrofacetTables tables = luts::microfacet_tables(distribution);
+    luts::add_later_bounces(tables, distribution);
+    luts::add_balance(tables, distribution);
+    return tables;
+}
+
+template <class Distribution, class Fresnel = ConstantFresnel<double>>
+auto balanced_lobe(const Distribution& distribution, const MicrofacetTables& tables,
+                   const Fresnel& fresnel = Fresnel(), double strength = 1)
+{
+    return balanced(MicrofacetReflection<Distribution, Fresnel>(distribution, fresnel), tables,
+                    strength);
+}
+
+template <class Closure>
+Triple reflected(const Closure& closure, double mu, double alpha, int nodes = 64)
+{
+    const auto prepared = closure.prepare(direction<double>(mu));
+    return integrate_reflections(prepared.wo(), alpha, alpha, nodes,
+                                 [&](const Vec3<double>& wi) { return prepared.eval(wi); });
+}
+
+constexpr double grazing_cosines[] = {1e-3, 3e-3, 0.01, 0.03, 0.1, 0.3, 0.5, 0.7, 0.9, 1.0};
+
+TEST(Balanced, returns_all_energy_of_a_white_furnace)
+{
+    const MicrofacetTables ggx = tables_of("ggx"), beckmann = tables_of("beckmann");
+    for (double alpha : {1e-3, 3e-3, 0.01, 0.03, 0.1, 0.25, 0.5, 0.75, 1.0})
+        for (double mu : grazing_cosines)
+        {
+            const auto rough = balanced_lobe(GGX<double>(alpha), ggx);
+            EXPECT_TRUE(rough.traits().energy_preserving);
+            EXPECT_NEAR(reflected(rough, mu, alpha).x, 1, 2e-3) << "ggx " << alpha << " " << mu;
+            EXPECT_NEAR(reflected(balanced_lobe(Beckmann<double>(alpha), beckmann), mu, alpha).x, 1,
+                        2e-3)
+                << "beckmann " << alpha << " " << mu;
+        }
+}
+
+// From alpha 0.05 on, where the quadrature over slopes about the peak sees all of the tail.
+TEST(Balanced, returns_all_energy_with_long_tails)
+{
+    const MicrofacetTables gtr = tables_of("gtr"), student = tables_of("std");
+    for (double alpha : {0.05, 0.3, 1.0})
+        for (double mu : {0.05, 0.3, 1.0})
+        {
+            for (double gamma : {0.5, 1.0, 3.0})
+                EXPECT_NEAR(
+                    reflected(balanced_lobe(GTR<double>(alpha, gamma), gtr), mu, alpha, 96).x, 1,
+                    3e-3)
+                    << "gtr " << gamma << " " << alpha << " " << mu;
+            for (double gamma : {1.6, 5.0})
+                EXPECT_NEAR(
+                    reflected(balanced_lobe(STD<double>(alpha, gamma), student), mu, alpha, 96).x,
+                    1, 3e-3)
+                    << "std " << gamma << " " << alpha << " " << mu;
+        }
+}
+
+TEST(Balanced, is_reciprocal)
+{
+    const MicrofacetTables tables = tables_of("ggx");
+    const auto metal = gold<double>(1, 1).fresnel();
+    for (double alpha : {0.01, 0.1, 0.5, 1.0})
+    {
+        const auto closure = balanced_lobe(GGX<double>(alpha), tables, metal);
+        EXPECT_TRUE(closure.traits().reciprocal);
+        EXPECT_LT(asymmetry_of_reflection(closure), 1e-10) << alpha;
+    }
+}
+
+// By the slopes of luts and by the closures' own directions.
+TEST(Balanced, the_table_is_the_fixed_point)
+{
+    const MicrofacetTables tables = tables_of("ggx");
+    for (double alpha : {0.01, 0.2, 1.0})
+    {
+        const luts::Balance balance(luts::SlopeLaw::ggx(alpha));
+        const TableAxes<double> axes{GGX<double>(alpha)};
+        for (double mu : {0.005, 0.05, 0.4, 1.0})
+        {
+            EXPECT_NEAR(axes.directional(tables.balance, mu) / balance.at(mu), 1, 8e-4);
+            const auto prepared = white<double>(alpha, alpha).prepare(direction<double>(mu));
+            const double row =
+                integrate_reflections(prepared.wo(), alpha, alpha, 64, [&](const Vec3<double>& wi) {
+                    return prepared.eval(wi).x * balance.at(std::min(wi.z, 1.0));
+                });
+            EXPECT_NEAR(row * balance.at(mu), 1, 2e-5) << alpha << " " << mu;
+        }
+    }
+}
+
+// As tints go through both ends, the albedo is near that of the directional gain, which is within
+// 5e-3 of the walk; docs/methods.md has the differences from the walk itself.
+TEST(Balanced, has_the_colour_of_the_directional_gain)
+{
+    for (const std::string name : {"ggx", "beckmann"})
+    {
+        const MicrofacetTables tables = tables_of(name);
+        double worst = 0;
+        const auto measure = [&](const auto& distribution, const auto& fresnel) {
+            const double alpha = distribution.alpha_x();
+            const auto closure = balanced_lobe(distribution, tables, fresnel);
+            const auto bare = closure.lobe();
+            const DirectionalGain gain(distribution, fresnel, tables, 1.0);
+            for (double mu : {0.05, 0.2, 0.5, 1.0})
+            {
+                const Triple off = reflected(closure, mu, alpha, 32) -
+                                   reflected(bare, mu, alpha, 32) * gain.at(direction<double>(mu));
+                for (int c = 0; c < 3; ++c) worst = std::max(worst, std::abs(off[c]));
+            }
+        };
+        const SchlickFresnel<double> dim(Triple(0.04, 0.2, 0.5));
+        for (double alpha : {0.1, 0.5, 1.0})
+        {
+            if (name == "ggx")
+            {
+                measure(GGX<double>(alpha), dim);
+                measure(GGX<double>(alpha), gold<double>(1, 1).fresnel());
+            }
+            else
+            {
+                measure(Beckmann<double>(alpha), dim);
+                measure(Beckmann<double>(alpha), gold<double>(1, 1).fresnel());
+            }
+        }
+        EXPECT_LT(worst, 1e-2) << name;
+    }
+}
+
+TEST(Balanced, albedo_is_what_eval_integrates_to)
+{
+    const MicrofacetTables tables = tables_of("ggx");
+    for (double alpha : {0.1, 0.5, 1.0})
+        for (double mu : {0.1, 0.5, 1.0})
+        {
+            const auto closure =
+                balanced_lobe(GGX<double>(alpha), tables, gold<double>(1, 1).fresnel());
+            const Triple off = closure.prepare(direction<double>(mu)).albedo().reflect -
+                               reflected(closure, mu, alpha);
+            for (int c = 0; c < 3; ++c) EXPECT_NEAR(off[c], 0, 2e-3) << alpha << " " << mu;
+        }
+}
+
+TEST(Balanced, changes_no_direction_and_no_pdf)
+{
+    const auto closure = balanced_lobe(GGX<double>(0.6), tables_of("ggx"));
+    const auto with = closure.prepare(direction<double>(0.3, 1));
+    const auto without = closure.lobe().prepare(direction<double>(0.3, 1));
+    Random random(5);
+    for (int i = 0; i < 500; ++i)
+    {
+        const Vec2<double> u(random.unit(), random.unit());
+        const auto a = with.sample(u), b = without.sample(u);
+        EXPECT_EQ(a.wi, b.wi);
+        EXPECT_EQ(a.pdf, b.pdf);
+        EXPECT_EQ(with.pdf(a.wi), without.pdf(a.wi));
+    }
+    expect_weight_is_eval_over_pdf(closure, 1e-10);
+}
+
+// The gain's factor of wi is small at grazing angles, where masking lets least of the light out,
+// and largest along the normal: that evens out whose light comes from above, and adds to what
+// varies little at grazing angles.
+TEST(Balanced, weights_vary_less_than_a_scaled_lobes_but_at_grazing_angles)
+{
+    const MicrofacetTables tables = tables_of("ggx");
+    for (double alpha : {0.1, 0.25, 0.5, 1.0})
+        for (double mu : {0.05, 0.1, 0.2, 0.5, 0.9})
+        {
+            const auto closure = balanced_lobe(GGX<double>(alpha), tables);
+            const auto wo = direction<double>(mu);
+            const auto with = sample_statistics(closure.prepare(wo), 40000),
+                       without = sample_statistics(closure.lobe().prepare(wo), 40000);
+            EXPECT_NEAR(with.mean.x, 1, 6e-3);
+            EXPECT_LT(with.largest, 2.2);
+            const double scaled = without.variance / std::pow(without.mean.x, 2);
+            EXPECT_LT(with.variance, mu < 0.2 ? 0.2 : scaled + 0.01) << alpha << " " << mu;
+        }
+}
+
+TEST(Balanced, strength_goes_from_nothing_to_all)
+{
+    const MicrofacetTables tables = tables_of("ggx");
+    const auto wo = direction<double>(0.4), wi = direction<double>(0.9, 2);
+    const SchlickFresnel<double> dim(Triple(0.04, 0.2, 0.5));
+    const auto gain = [&](double strength) {
+        return BalancedGain(GGX<double>(0.6), dim, tables, strength).pair(wo, wi);
+    };
+    EXPECT_EQ(gain(0), Triple(1.0));
+    EXPECT_EQ(gain(-3), Triple(1.0));
+    EXPECT_EQ(gain(std::nan("")), Triple(1.0));
+    EXPECT_EQ(gain(7), gain(1));
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(gain(0.5)[c] - 1, 0.5 * (gain(1)[c] - 1), 1e-14);
+    EXPECT_FALSE(BalancedGain(GGX<double>(0.6), dim, tables, 0.5).energy_preserving());
+    EXPECT_FALSE(BalancedGain(GGX<double>(0.6, 0.3), dim, tables, 1.0).energy_preserving());
+}
+
+TEST(Balanced, a_mirror_and_a_lobe_without_tables_get_no_gain)
+{
+    const MicrofacetTables tables = tables_of("ggx");
+    const auto wo = direction<double>(0.4), wi = direction<double>(0.9, 2);
+    EXPECT_EQ(BalancedGain(GGX<double>(0.0), ConstantFresnel<double>(), tables, 1.0).pair(wo, wi),
+              Triple(1.0));
+    for (TableView MicrofacetTables::*missing :
+         {&MicrofacetTables::E_ss, &MicrofacetTables::q_ms, &MicrofacetTables::mu_ms,
+          &MicrofacetTables::balance})
+    {
+        MicrofacetTables some = tables;
+        some.*missing = {};
+        const BalancedGain gain(GGX<double>(0.6), ConstantFresnel<double>(), some, 1.0);
+        EXPECT_EQ(gain.pair(wo, wi), Triple(1.0));
+        EXPECT_FALSE(gain.energy_preserving());
+    }
+}
+
+TEST(Balanced, answers_in_batches_as_in_floats)
+{
+    const MicrofacetTables tables = tables_of("ggx");
+    expect_batch_answers_as_float([&](auto alpha) {
+        using Real = decltype(alpha);
+        const SchlickFresnel<Real> fresnel(Color3<Real>(Real(0.9f), Real(0.6f), Real(0.2f)));
+        return balanced(
+            MicrofacetReflection<GGX<Real>, SchlickFresnel<Real>>(GGX<Real>(alpha), fresnel),
+            tables);
+    });
+}
+
+}  // namespace

@@ -11,6 +11,7 @@
 // nothing to do with each other, tell the noise. 2^23 samples, the default, bring that below 0.003
 // in some minutes.
 
+#include <regain/closures/balanced_gain.h>
 #include <regain/closures/beckmann.h>
 #include <regain/closures/compensated.h>
 #include <regain/closures/constant_fresnel.h>
@@ -34,8 +35,8 @@ using namespace regain;
 using White = ConstantFresnel<double>;
 
 constexpr double alphas[] = {0.25, 0.5, 0.75, 1}, cosines[] = {0.2, 0.5, 0.9};
-constexpr const char* columns[] = {"`none`", "`turquin` and all gains", "`kulla-conty`", "`tail`",
-                                   "noise"};
+constexpr const char* columns[] = {
+    "`none`", "`turquin` and all gains(wo)", "`balanced`", "`kulla-conty`", "`tail`", "noise"};
 
 using Cells = std::array<double, 512>;
 using Row = std::array<double, std::size(columns)>;
@@ -75,8 +76,11 @@ Row measured(const Distribution& distribution, const MicrofacetTables& tables, d
     const auto off = [&](const auto& closure) {
         return distance(truth, cells_of(closure.prepare(wo), samples, 0.6));
     };
-    return {off(lobe), off(compensated(lobe, Method::normalise, tables)),
-            off(kulla_conty(lobe, KullaContyForm::printed, tables)), off(fitted_tail(lobe, tables)),
+    return {off(lobe),
+            off(compensated(lobe, Method::normalise, tables)),
+            off(balanced(lobe, tables)),
+            off(kulla_conty(lobe, KullaContyForm::printed, tables)),
+            off(fitted_tail(lobe, tables)),
             distance(truth, cells_of(walk, samples, 0.9))};
 }
 
@@ -86,6 +90,7 @@ void print(const std::string& name, int samples)
     MicrofacetTables tables = luts::microfacet_tables(name);
     luts::add_later_bounces(tables, name);
     luts::add_later_shape(tables, name);
+    luts::add_balance(tables, name);
     for (const double alpha : alphas)
     {
         std::array<Row, std::size(cosines)> rows;
@@ -114,7 +119,7 @@ int main(int argc, char** argv)
     }
     std::printf("| mu 0.2 / 0.5 / 0.9 |");
     for (const char* column : columns) std::printf(" %s |", column);
-    std::printf("\n|---|---|---|---|---|---|\n");
+    std::printf("\n|---|---|---|---|---|---|---|\n");
     print<GGX<double>>("ggx", samples);
     print<Beckmann<double>>("beckmann", samples);
     return 0;

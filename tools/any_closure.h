@@ -12,6 +12,7 @@
 #include <regain/closures/closure.h>
 
 #include <memory>
+#include <optional>
 
 namespace regain::tools {
 
@@ -19,7 +20,7 @@ namespace regain::tools {
 struct GainAnswer
 {
     ColorD gain{1.0};
-    const char* form = "none";  ///< how it acts: "none", "gain(wo)", "added lobe"
+    const char* form = "none";  ///< how it acts: "gain(wo)", "gain(wo, wi)", "added lobe"
 };
 
 class AnyClosure
@@ -39,8 +40,9 @@ public:
     virtual Sample<double> sample(const Imath::V3d& u) const = 0;
     /// Energy, whatever the transport.
     virtual Albedo<double> albedo() const = 0;
-    /// Throws BadInput where compensation is not a gain.
-    virtual GainAnswer gain() const = 0;
+    /// Throws BadInput where compensation is not a gain. Of a gain that depends on wi, for the wi
+    /// that is given; without one what it makes of the albedo.
+    virtual GainAnswer gain(const std::optional<Imath::V3d>& wi = {}) const = 0;
 
     /// Facets that the walk behind sample(u) met; 1 for closures that do not walk.
     virtual int bounces(const Imath::V3d& u) const = 0;

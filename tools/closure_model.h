@@ -10,6 +10,7 @@
 #include "any_closure.h"
 #include "errors.h"
 
+#include <regain/closures/compensated.h>
 #include <regain/closures/host_queries.h>
 
 #include <algorithm>
@@ -17,6 +18,15 @@
 #include <optional>
 
 namespace regain::tools {
+
+/// Whether a closure is another one with a gain that depends on wi.
+template <class Closure>
+struct HasPairGain : std::false_type
+{};
+template <class Lobe, class Gain>
+struct HasPairGain<Compensated<Lobe, Gain>>
+    : std::bool_constant<Compensated<Lobe, Gain>::depends_on_wi>
+{};
 
 template <class Closure>
 class ClosureModel final : public AnyClosure
@@ -54,7 +64,14 @@ public:
         return wide;
     }
     Albedo<double> albedo() const override { return wide(_prepared->albedo()); }
-    GainAnswer gain() const override { return gain_of(_closure); }
+    GainAnswer gain(const std::optional<Imath::V3d>& wi) const override
+    {
+        if constexpr (HasPairGain<Closure>::value)
+            if (wi && !is_dark())
+                return {ColorD(_closure.gain().at(_wo) * _closure.gain().pair(_wo, rounded(*wi))),
+                        pair_form};
+        return gain_of(_closure);
+    }
 
     int bounces([[maybe_unused]] const Imath::V3d& u) const override
     {
@@ -65,6 +82,7 @@ public:
     }
 
 private:
+    static constexpr const char* pair_form = "gain(wo, wi)";
     static constexpr bool walks =
         regain::detail::TakesNumbersInEval<typename Closure::Prepared, Real>::value;
 
@@ -101,6 +119,12 @@ private:
     template <class Lobe, class Gain>
     GainAnswer gain_of(const Compensated<Lobe, Gain>& closure) const
     {
+        if constexpr (HasPairGain<Closure>::value)
+        {
+            GainAnswer mean = added(closure.lobe());
+            mean.form = pair_form;
+            return mean;
+        }
         GainAnswer answer;
         answer.form = "gain(wo)";
         if (!is_dark()) answer.gain = ColorD(closure.gain().at(_wo));

@@ -17,7 +17,6 @@ constexpr std::array<Names, 4> lobes{"conductor", "generalized_schlick", "dielec
 constexpr std::array<Names, 7> planned_lobes{
     "oren_nayar_diffuse", "burley_diffuse", "translucent", "layer", "mix", "add", "multiply"};
 constexpr std::array<Names, 4> distributions{"ggx", "beckmann", "gtr", "std"};
-constexpr std::array<Names, 1> planned_methods{"balanced"};
 constexpr std::array<Names, 2> precisions{"float", "double"};
 constexpr std::array<Names, 2> transports{"importance", "radiance"};
 constexpr std::array<Names, 3> scatter_modes{"R", "T", "RT"};
@@ -33,8 +32,7 @@ shaders::Compensation read_method(Names given)
 {
     if (const auto method = shaders::compensation_named(given)) return *method;
     const auto& names = shaders::compensation_names();
-    choose("method", given, names.data(), names.size(), planned_methods.data(),
-           planned_methods.size());  // throws
+    choose("method", given, names.data(), names.size(), nullptr, 0);  // throws
     return Method::none;
 }
 

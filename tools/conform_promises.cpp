@@ -30,6 +30,7 @@ std::optional<double> tint_of(const shaders::Compensation& method, DistributionK
     if (std::holds_alternative<shaders::Directional>(method) ||
         std::holds_alternative<shaders::Tail>(method))
         return 1.2e-2;
+    if (std::holds_alternative<shaders::Balanced>(method)) return tail ? 0.06 : 1.6e-2;
     const auto* gain = std::get_if<Method>(&method);
     if (!gain) return std::nullopt;
     switch (*gain)
@@ -53,6 +54,22 @@ double largest_gain(const ClosureSpec& spec, const Imath::V3d& wo)
     return std::max({gain.x, gain.y, gain.z});
 }
 
+// Of a gain that depends on wi, over many of them.
+double largest_pair_gain(const ClosureSpec& spec, const Imath::V3d& wo)
+{
+    const auto closure = make_closure(spec, true);
+    closure->prepare(wo);
+    double largest = 1;
+    constexpr int cosines = 200;
+    for (int i = 1; i <= cosines; ++i)
+    {
+        const double mu = std::pow(static_cast<double>(i) / cosines, 3);
+        const ColorD gain = closure->gain(Imath::V3d(std::sqrt(1 - mu * mu), 0, mu)).gain;
+        largest = std::max({largest, gain.x, gain.y, gain.z});
+    }
+    return 1.01 * largest;
+}
+
 // Directional albedo of the lobe alone, by tables.
 double bare_albedo(ClosureSpec spec, const Imath::V3d& wo)
 {
@@ -74,9 +91,10 @@ Promises promises_of(const ClosureSpec& spec, const Imath::V3d& wo)
     const auto* gain = std::get_if<Method>(&spec.method);
     const bool walks = std::holds_alternative<shaders::RandomWalk>(spec.method);
     const bool adds = std::holds_alternative<KullaContyForm>(spec.method);
-    const bool compensates = adds || std::holds_alternative<shaders::Directional>(spec.method) ||
-                             std::holds_alternative<shaders::Tail>(spec.method) ||
-                             (gain && *gain != Method::none);
+    const bool balances = std::holds_alternative<shaders::Balanced>(spec.method);
+    const bool compensates =
+        adds || balances || std::holds_alternative<shaders::Directional>(spec.method) ||
+        std::holds_alternative<shaders::Tail>(spec.method) || (gain && *gain != Method::none);
     const bool glass = spec.lobe == Lobe::dielectric && !spec.interface.thin_walled;
     const bool beta = glass && spec.interface.shadowing == TransmissionShadowing::beta;
 
@@ -108,6 +126,12 @@ Promises promises_of(const ClosureSpec& spec, const Imath::V3d& wo)
     {
         p.albedo = spec.distribution == DistributionKind::std ? 1.5e-2 : 1e-2;
         p.albedo_noise = *p.albedo;
+    }
+    // The mean of the gain over some samples.
+    if (balances)
+    {
+        if (spec.distribution == DistributionKind::std) p.albedo = 1.5e-2;
+        p.albedo_noise = std::max(*p.albedo, 5e-3);
     }
     // How much of what an interface sends back and on is reflected.
     if (glass && spec.interface.mode != ScatterMode::RT) p.albedo = 0.05;
@@ -142,7 +166,10 @@ Promises promises_of(const ClosureSpec& spec, const Imath::V3d& wo)
     // returns, or of Beckmann's beta form and of a tail, which is sampled without its tilt, twice.
     const bool tail = std::holds_alternative<shaders::Tail>(spec.method);
     const bool twice = tail || (beta && spec.distribution == DistributionKind::beckmann);
-    if (compensates) p.weight = std::max(largest_gain(spec, wo), twice ? 2 : adds ? 1.5 : 1.0);
+    if (balances)
+        p.weight = largest_pair_gain(spec, wo);
+    else if (compensates)
+        p.weight = std::max(largest_gain(spec, wo), twice ? 2 : adds ? 1.5 : 1.0);
     return p;
 }
 

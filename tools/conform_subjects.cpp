@@ -166,6 +166,7 @@ public:
         if (const auto* method = std::get_if<Method>(&_spec.method))
             return *method == Method::none ? Form::none : Form::gain;
         if (std::holds_alternative<shaders::Directional>(_spec.method)) return Form::gain;
+        if (std::holds_alternative<shaders::Balanced>(_spec.method)) return Form::pair_gain;
         return std::holds_alternative<shaders::RandomWalk>(_spec.method) ? Form::replaced
                                                                          : Form::added_lobe;
     }
@@ -191,13 +192,14 @@ public:
 private:
     std::vector<std::string> table_names() const
     {
-        if (form() != Form::gain) return {};
+        if (form() != Form::gain && form() != Form::pair_gain) return {};
         const std::string distribution(shaders::name(_spec.distribution));
         const bool glass = _spec.lobe == Lobe::dielectric && !_spec.interface.thin_walled;
         std::vector<std::string> names;
         for (const char* quantity : {"E_ss", "E_avg", "falloff", "dip"})
             names.push_back(distribution + "_" + quantity);
-        if (std::holds_alternative<shaders::Directional>(_spec.method))
+        if (form() == Form::pair_gain) names.push_back(distribution + "_balance");
+        if (form() == Form::pair_gain || std::holds_alternative<shaders::Directional>(_spec.method))
             for (const char* quantity : {"q_ms", "mu_ms"})
                 names.push_back(distribution + "_" + quantity);
         // A mode that only reflects is a mirror's.

@@ -42,7 +42,7 @@ fields of a line
   thin_walled   of dielectric: true for a sheet; tint: [r,g,b] of all that it scatters
   color, weight of sheen; default 1
   method      none (default), normalise, turquin, turquin-eq12, turquin-eq13, turquin-eq14, series,
-              directional, kulla-conty, kulla-conty-series, tail, walk, burley-sheen;
+              directional, balanced, kulla-conty, kulla-conty-series, tail, walk, burley-sheen;
               docs/support.md says what goes with what
   strength    of the method, in [0, 1]; default 1; 0 or 1 for walk
   precision   float (default), double

@@ -121,7 +121,9 @@ void write_albedo(fmt::memory_buffer& buffer, AnyClosure& closure, const Query& 
 
 void write_gain(Writer& out, const AnyClosure& closure, const Query& query)
 {
-    const GainAnswer answer = closure.gain();
+    const bool pairs = std::holds_alternative<shaders::Balanced>(query.closure.method);
+    const GainAnswer answer =
+        closure.gain(pairs ? std::optional<Imath::V3d>(query.wi) : std::nullopt);
     const auto* method = std::get_if<Method>(&query.closure.method);
     out << R"({"gain":)" << answer.gain << R"(,"form":")"
         << (method && *method == Method::none ? "none" : answer.form) << R"("})";

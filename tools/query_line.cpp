@@ -148,7 +148,11 @@ void read_operands(Fields& fields, Query& query)
             query.wo = read_wo(fields);
             query.albedo = read_albedo_settings(fields, query.closure);
             break;
-        case Op::gain: query.wo = read_wo(fields); break;
+        case Op::gain:
+            query.wo = read_wo(fields);
+            if (std::holds_alternative<shaders::Balanced>(query.closure.method))
+                query.wi = needed_direction(fields, "wi");
+            break;
         case Op::fresnel: {
             // Below the surface there is nothing but a dielectric's other side.
             const bool two_sides =

@@ -336,6 +336,8 @@ bool is_error_promised(const std::string& name, const TablePoint& at)
 
 double smallest_promised(const std::string& name) { return Definition::of(name).smallest_promised; }
 
+double greatest_answer(const std::string& name) { return Definition::of(name).greatest; }
+
 bool is_logarithmic(const std::string& name) { return Definition::of(name).info.transform == "ln"; }
 
 double interpolated(const TableView& table, const TablePoint& at)

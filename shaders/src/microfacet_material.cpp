@@ -15,6 +15,7 @@ std::vector<Compensation> every_compensation()
 {
     std::vector<Compensation> all(std::begin(all_methods), std::end(all_methods));
     all.push_back(Directional{});
+    all.push_back(Balanced{});
     all.insert(all.end(), std::begin(all_kulla_conty_forms), std::end(all_kulla_conty_forms));
     all.push_back(Tail{});
     all.push_back(RandomWalk{});
@@ -54,6 +55,7 @@ std::string_view name(const Compensation& compensation)
     if (const auto* method = std::get_if<Method>(&compensation)) return regain::name(*method);
     if (const auto* form = std::get_if<KullaContyForm>(&compensation)) return regain::name(*form);
     if (std::holds_alternative<Directional>(compensation)) return "directional";
+    if (std::holds_alternative<Balanced>(compensation)) return "balanced";
     if (std::holds_alternative<Tail>(compensation)) return "tail";
     return std::holds_alternative<RandomWalk>(compensation) ? "walk" : "burley-sheen";
 }
@@ -121,8 +123,10 @@ void MicrofacetMaterial::bind_tables(bool for_albedo)
     {
         _tables = luts::microfacet_tables(names);
         const bool tail = std::holds_alternative<Tail>(method);
-        if (tail || std::holds_alternative<Directional>(method))
+        const bool balanced = std::holds_alternative<Balanced>(method);
+        if (tail || balanced || std::holds_alternative<Directional>(method))
             luts::add_later_bounces(_tables, names);
+        if (balanced) luts::add_balance(_tables, names);
         if (tail) luts::add_later_shape(_tables, names);
     }
     else if (gains || (for_albedo && !is_walk))

@@ -8,6 +8,7 @@
 
 #include "closure_subject.h"
 
+#include <regain/closures/balanced_gain.h>
 #include <regain/closures/conductor.h>
 #include <regain/closures/dielectric_gain.h>
 #include <regain/closures/dielectric_kulla_conty.h>
@@ -65,6 +66,12 @@ public:
             MicrofacetTables tables = mirror_tables(d);
             luts::add_later_bounces(tables, d);
             return directional(schlick(s), tables, strength(s));
+        });
+        add(Lobe::schlick, "balanced", [=](const Parameters& s) {
+            MicrofacetTables tables = mirror_tables(d);
+            luts::add_later_bounces(tables, d);
+            luts::add_balance(tables, d);
+            return balanced(schlick(s), tables, strength(s));
         });
         for (KullaContyForm form : all_kulla_conty_forms)
             add(Lobe::schlick, name(form), [=](const Parameters& s) {

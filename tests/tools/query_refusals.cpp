@@ -77,13 +77,6 @@ TEST(query_refusals, what_is_planned_is_named_as_not_supported_yet)
                   std::string("closure '") + name +
                       "' is not supported yet; accepted: conductor, generalized_schlick, "
                       "dielectric, sheen");
-    for (const char* name : {"balanced"})
-        EXPECT_EQ(refusal(changed(eval(), "method", name)),
-                  std::string("method '") + name +
-                      "' is not supported yet; accepted: none, normalise, turquin, turquin-eq12, "
-                      "turquin-eq13, turquin-eq14, series, directional, kulla-conty, "
-                      "kulla-conty-series, tail, walk, "
-                      "burley-sheen");
 }
 
 TEST(query_refusals, what_belongs_to_another_closure)
@@ -107,7 +100,7 @@ TEST(query_refusals, what_belongs_to_another_closure)
 TEST(query_refusals, combinations_that_the_library_has_not)
 {
     for (const char* method : {"turquin-eq12", "turquin-eq13", "turquin-eq14", "series",
-                               "directional", "tail", "burley-sheen"})
+                               "directional", "balanced", "tail", "burley-sheen"})
         check({{glass(), "method", method, {method, "does not go with dielectrics", "walk"}}});
     for (const char* method : {"turquin", "kulla-conty", "walk"})
         check({{sheen(), "method", method, {method, "does not go with sheen", "none"}}});

@@ -9,6 +9,7 @@
 #include "figure.h"
 #include "measures.h"
 
+#include <regain/closures/balanced_gain.h>
 #include <regain/closures/compensated.h>
 #include <regain/closures/conductor_fresnel.h>
 #include <regain/closures/constant_fresnel.h>
@@ -198,6 +199,15 @@ auto with_directional_gain()
                            luts::ggx_tables());
     };
 }
+auto with_balanced_gain()
+{
+    return [](const auto& distribution, const auto& fresnel) {
+        using Distribution = std::decay_t<decltype(distribution)>;
+        using Fresnel = std::decay_t<decltype(fresnel)>;
+        return balanced(MicrofacetReflection<Distribution, Fresnel>(distribution, fresnel),
+                        luts::ggx_tables());
+    };
+}
 auto with_added_lobe(KullaContyForm form)
 {
     return [form](const auto& distribution, const auto& fresnel) {
@@ -349,6 +359,8 @@ Figure make_table1(const Request& request)
     }
     add("directional", "gain(wo)", with_directional_gain(),
         E_ss + bytes(tables.q_ms) + bytes(tables.mu_ms));
+    add("balanced", "gain(wo) gain(wi)", with_balanced_gain(),
+        bytes(tables.balance) + bytes(tables.q_ms) + bytes(tables.mu_ms));
     for (const KullaContyForm form : all_kulla_conty_forms)
         add(std::string(name(form)), "added lobe", with_added_lobe(form), E_ss);
     add("tail", "added lobe", with_tail(),

@@ -18,7 +18,8 @@ static_assert(REGAIN_WHITE == static_cast<int>(Reflectance::white) &&
 static_assert(REGAIN_FORM_NONE == static_cast<int>(Form::none) &&
               REGAIN_FORM_GAIN == static_cast<int>(Form::gain) &&
               REGAIN_FORM_ADDED == static_cast<int>(Form::added_lobe) &&
-              REGAIN_FORM_REPLACED == static_cast<int>(Form::replaced));
+              REGAIN_FORM_REPLACED == static_cast<int>(Form::replaced) &&
+              REGAIN_FORM_PAIR_GAIN == static_cast<int>(Form::pair_gain));
 
 struct Three
 {

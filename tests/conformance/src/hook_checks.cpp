@@ -80,11 +80,12 @@ std::optional<Outcome> traits_are_true(Bench& bench)
 
 std::string needs_a_gain(const Subject& subject, const Traits&)
 {
-    if (subject.form() != Form::gain) return "it is no gain on another closure";
+    if (subject.form() != Form::gain && subject.form() != Form::pair_gain)
+        return "it is no gain on another closure";
     return subject.bare() ? "" : "the closure without its gain is not known";
 }
 
-// Directions and pdfs to the bit; values all by the same factor.
+// Directions and pdfs to the bit; values all by the same factor, of a pair's gain those of one wi.
 std::optional<Outcome> a_gain_scales_and_nothing_else(Bench& bench)
 {
     TestedClosure& closure = bench.closure();
@@ -92,6 +93,7 @@ std::optional<Outcome> a_gain_scales_and_nothing_else(Bench& bench)
     bare->prepare(bench.setting().wo);
     Random random = bench.random("C16");
     const int n = bench.tier() == Tier::commit ? 1000 : 2000;
+    const bool pairs = bench.subject().form() == Form::pair_gain;
     Outcome o;
     o.bound = bench.parameters().in_double ? 1e-12 : 1e-5;
     std::string what;
@@ -123,7 +125,8 @@ std::optional<Outcome> a_gain_scales_and_nothing_else(Bench& bench)
         if (!equal(a, b) && what.empty())
             what = "u " + shown(u) + " gives wi " + shown(a.wi) + " with pdf " + shown(a.pdf) +
                    ", without the gain wi " + shown(b.wi) + " with pdf " + shown(b.pdf);
-        const Direction wi = i % 2 && b.valid ? b.wi : random.direction();
+        const Direction wi = (pairs || i % 2) && b.valid ? b.wi : random.direction();
+        if (pairs) gain = Color(-1.0);
         if (closure.pdf(wi) != bare->pdf(wi) && what.empty())
             what = "the pdf of wi " + shown(wi) + " is " + shown(closure.pdf(wi)) +
                    ", without the gain " + shown(bare->pdf(wi));

@@ -115,9 +115,9 @@ private:
               reads.lowest_gamma <= reads.highest_gamma))
             fail(name + " reads gamma from " + std::to_string(reads.lowest_gamma) + " to " +
                  std::to_string(reads.highest_gamma) + ", which is no range");
-        if (c.form < REGAIN_FORM_NONE || c.form > REGAIN_FORM_REPLACED)
+        if (c.form < REGAIN_FORM_NONE || c.form > REGAIN_FORM_PAIR_GAIN)
             fail("the form of " + name + " is " + std::to_string(c.form) + "; accepted: " +
-                 std::to_string(REGAIN_FORM_NONE) + " to " + std::to_string(REGAIN_FORM_REPLACED));
+                 std::to_string(REGAIN_FORM_NONE) + " to " + std::to_string(REGAIN_FORM_PAIR_GAIN));
     }
 
     const Subject* named(const std::vector<std::unique_ptr<CSubject>>& subjects, const char* name,

@@ -27,7 +27,8 @@
 /// is 0.37 along the normal, of the lobe scaled to the same albedo 1.9. At grazing angles, where
 /// either is small, it is larger: 0.14 and 0.05 at mu 0.05. No weight is above 2.2.
 ///
-/// The albedo is no look-up: it is a mean over a grid of samples, right within 2e-3.
+/// The albedo is no look-up: it is the lobe's times the mean gain over a grid of 1024 samples,
+/// right within 1e-3 of what the lobe's tables are right to, of STD 1.5e-2.
 
 #pragma once
 

@@ -76,10 +76,38 @@ public:
             if constexpr (!depends_on_wi)
                 return _lobe.albedo();
             else  // no table knows a gain that depends on wi
-                return detail::mean_weight<Real>(*this);
+                return mean_gain();
         }
 
     private:
+        // The lobe's albedo times the mean gain over its samples, each by its weight: of what the
+        // samples know of the lobe itself nothing is left in the ratio.
+        Albedo<Real> mean_gain() const
+        {
+            const Color none(Real(0));
+            Albedo<Real> with{none, none}, without{none, none};
+            constexpr int n = 32;
+            for (int j = 0; j < n; ++j)
+                for (int i = 0; i < n; ++i)
+                {
+                    const Sample<Real> s = _lobe.sample(detail::grid_numbers<Real>(i, j, n));
+                    const Color w = s.weight, scaled = w * _gain.pair(s.wi);
+                    without.reflect += detail::select(s.transmitted, none, w);
+                    without.transmit += detail::select(s.transmitted, w, none);
+                    with.reflect += detail::select(s.transmitted, none, scaled);
+                    with.transmit += detail::select(s.transmitted, scaled, none);
+                }
+            const Albedo<Real> bare = _lobe.albedo();
+            return {bare.reflect * ratio(with.reflect, without.reflect),
+                    bare.transmit * ratio(with.transmit, without.transmit)};
+        }
+        static Color ratio(const Color& a, const Color& b)
+        {
+            const Real tiny = detail::constant<Real>(1e-30);
+            return {a.x / detail::max(b.x, tiny), a.y / detail::max(b.y, tiny),
+                    a.z / detail::max(b.z, tiny)};
+        }
+
         typename Lobe::Prepared _lobe;
         std::conditional_t<depends_on_wi, detail::PairGain<Gain, Real>, detail::NoPairGain> _gain;
     };

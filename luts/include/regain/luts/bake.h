@@ -5,7 +5,8 @@
 /// Baking: from a definition to a table, by deterministic quadrature.
 ///
 /// Names of tables are
-///     DISTRIBUTION_QUANTITY                   ggx, beckmann, gtr, std; E_ss, E_avg, falloff, dip
+///     DISTRIBUTION_QUANTITY                   ggx, beckmann, gtr, std; E_ss, E_avg, falloff, dip,
+///                                             balance, q_ms, mu_ms, spread, forward, tilt
 ///     DISTRIBUTION_QUANTITY_SHADOWING_SIDE    E_S, R_share; correlated, beta; outside, inside
 /// where in the second kind gtr and std are followed by one gamma, gtr_1.3_E_S_beta_inside: over
 /// gamma, too, the table would have four axes.
@@ -78,6 +79,9 @@ REGAIN_LUTS_API bool is_error_promised(const std::string& name, const TablePoint
 /// No error is promised where the quantity itself is below this: 0.1 of E_S in the beta form, which
 /// falls to nothing at grazing angles.
 REGAIN_LUTS_API double smallest_promised(const std::string& name);
+
+/// What look-ups of that table answer at most: 1 of albedos, infinity where nothing limits them.
+REGAIN_LUTS_API double greatest_answer(const std::string& name);
 
 /// Whether the table of that name holds natural logarithms.
 REGAIN_LUTS_API bool is_logarithmic(const std::string& name);

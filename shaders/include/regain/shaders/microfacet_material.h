@@ -20,6 +20,7 @@
 
 #pragma once
 
+#include <regain/closures/balanced_gain.h>
 #include <regain/closures/beckmann.h>
 #include <regain/closures/conductor_fresnel.h>
 #include <regain/closures/dielectric_gain.h>
@@ -106,6 +107,10 @@ struct RandomWalk
 struct Directional
 {};
 
+/// The gain of both directions, reciprocal and without loss.
+struct Balanced
+{};
+
 /// The added lobe with the walk's shape.
 struct Tail
 {};
@@ -116,7 +121,7 @@ struct BurleySheen
 
 /// Any method of compensation: a gain, an added lobe, a walk, a glow.
 using Compensation =
-    std::variant<Method, Directional, KullaContyForm, Tail, RandomWalk, BurleySheen>;
+    std::variant<Method, Directional, Balanced, KullaContyForm, Tail, RandomWalk, BurleySheen>;
 
 REGAIN_SHADERS_API std::string_view name(const Compensation&);
 REGAIN_SHADERS_API std::optional<Compensation> compensation_named(std::string_view);
@@ -210,6 +215,8 @@ private:
     {
         if (std::holds_alternative<Directional>(method))
             return visit(directional(lobe, _tables, strength));
+        if (std::holds_alternative<Balanced>(method))
+            return visit(balanced(lobe, _tables, strength));
         if (const auto* form = std::get_if<KullaContyForm>(&method))
             return visit(kulla_conty(lobe, *form, _tables, strength));
         if (std::holds_alternative<Tail>(method))

@@ -43,7 +43,8 @@ enum {
     REGAIN_FORM_NONE = 0,
     REGAIN_FORM_GAIN = 1,
     REGAIN_FORM_ADDED = 2,
-    REGAIN_FORM_REPLACED = 3
+    REGAIN_FORM_REPLACED = 3,
+    REGAIN_FORM_PAIR_GAIN = 4 /* a gain of both directions */
 };
 
 /** What a closure is made of. Any of it may be hostile. */

@@ -46,8 +46,9 @@ struct Reads
     bool single = false, twice = false;  ///< precisions it computes in; at least one
 };
 
-/// How compensation acts on the lobe that it compensates.
-enum class Form { none, gain, added_lobe, replaced };
+/// How compensation acts on the lobe that it compensates: a gain is one factor for all wi, a pair's
+/// gain another for each.
+enum class Form { none, gain, added_lobe, replaced, pair_gain };
 
 /// What holds in numbers, beyond the Traits, of one closure along one direction. Each may be
 /// nothing, where nothing is promised. Defaults are those of a single-scattering lobe.

@@ -71,6 +71,28 @@ TEST(DielectricIntegral, average_transmission_is_reciprocal)
         }
 }
 
+// Light from all sides, reciprocal and without loss, keeps 1 - 1 / eta^2 of what is inside; single
+// scattering keeps so much less that what scales it to that has no bound: docs/methods.md.
+TEST(DielectricIntegral, no_bounded_gain_balances_glass)
+{
+    const auto least_gain = [](double alpha, double eta) {
+        const QuadratureRule rule = gauss_legendre(24);
+        double reflected = 0;
+        for (std::size_t i = 0; i < rule.x.size(); ++i)
+        {
+            const double x = rule.x[i], mu = x * x;
+            reflected += rule.weight[i] * 2 * x * 2 * mu *
+                         dielectric_albedo(SlopeLaw::ggx(alpha), mu, 1 / eta, 14).reflected;
+        }
+        return (1 - 1 / (eta * eta)) / reflected;
+    };
+    EXPECT_NEAR(least_gain(0.1, 1.5), 0.991, 0.01);
+    EXPECT_NEAR(least_gain(1, 1.5), 4.11, 0.05);
+    EXPECT_NEAR(least_gain(1, 1.1), 12.1, 0.2);
+    EXPECT_GT(least_gain(1, 1.01), 80);
+    EXPECT_GT(least_gain(1, 1.001), 600);
+}
+
 TEST(DielectricIntegral, has_converged)
 {
     for (double alpha : {1e-3, 0.05, 1.0})

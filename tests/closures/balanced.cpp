@@ -159,14 +159,14 @@ TEST(Balanced, has_the_colour_of_the_directional_gain)
 TEST(Balanced, albedo_is_what_eval_integrates_to)
 {
     const MicrofacetTables tables = tables_of("ggx");
+    const SchlickFresnel<double> fresnel(Triple(0.04, 0.5, 1));
     for (double alpha : {0.1, 0.5, 1.0})
         for (double mu : {0.1, 0.5, 1.0})
         {
-            const auto closure =
-                balanced_lobe(GGX<double>(alpha), tables, gold<double>(1, 1).fresnel());
+            const auto closure = balanced_lobe(GGX<double>(alpha), tables, fresnel);
             const Triple off = closure.prepare(direction<double>(mu)).albedo().reflect -
                                reflected(closure, mu, alpha);
-            for (int c = 0; c < 3; ++c) EXPECT_NEAR(off[c], 0, 2e-3) << alpha << " " << mu;
+            for (int c = 0; c < 3; ++c) EXPECT_NEAR(off[c], 0, 2.5e-3) << alpha << " " << mu;
         }
 }
 

@@ -3,12 +3,15 @@
 
 // How far each method's directional albedo is from the random walk's: the table of docs/methods.md.
 //
-//   albedo_error [walks]
+//   albedo_error [walks] [fits]
+//
+// With `fits` the methods take the formulas of analytic_tables.h in place of tables.
 //
 // Single scattering is integrated by quadrature, so that what is seen is the error of the method
 // and its tables alone; the walk is sampled, by 16 independent sets whose means tell the standard
 // error. 2^22 walks, the default, bring that below 1e-4 in a quarter of an hour on two cores.
 
+#include <regain/closures/analytic_tables.h>
 #include <regain/closures/balanced_gain.h>
 #include <regain/closures/beckmann.h>
 #include <regain/closures/conductor_fresnel.h>
@@ -152,11 +155,12 @@ void measure(const Distribution& distribution, const luts::SlopeLaw& law, const 
 }
 
 template <class Distribution, class Terms>
-Errors measured(const std::string& name, const Terms& terms, int walks)
+Errors measured(const std::string& name, const Terms& terms, int walks, bool fits)
 {
     MicrofacetTables tables = luts::microfacet_tables(name);
     luts::add_later_bounces(tables, name);
     luts::add_later_shape(tables, name);
+    if (fits) tables = analytic_tables<Distribution>();
     luts::add_balance(tables, name);
     std::vector<Errors> errors(cells);
     std::atomic<std::size_t> next{0};
@@ -190,10 +194,11 @@ int main(int argc, char** argv)
         std::fprintf(stderr, "walks is '%s'; accepted: 16 to %d\n", argv[1], 1 << 30);
         return 2;
     }
-    const Errors columns[] = {measured<GGX<double>>("ggx", schlick, walks),
-                              measured<GGX<double>>("ggx", metals, walks),
-                              measured<Beckmann<double>>("beckmann", schlick, walks),
-                              measured<Beckmann<double>>("beckmann", metals, walks)};
+    const bool fits = argc > 2 && argv[2] == std::string("fits");
+    const Errors columns[] = {measured<GGX<double>>("ggx", schlick, walks, fits),
+                              measured<GGX<double>>("ggx", metals, walks, fits),
+                              measured<Beckmann<double>>("beckmann", schlick, walks, fits),
+                              measured<Beckmann<double>>("beckmann", metals, walks, fits)};
     std::printf(
         "| method | GGX, Schlick | GGX, metals | Beckmann, Schlick | Beckmann, metals |\n"
         "|---|---|---|---|---|\n");

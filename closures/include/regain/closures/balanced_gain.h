@@ -57,7 +57,7 @@ public:
           _axes(distribution),
           _half_strength(Real(0.5f) * detail::saturate(strength))
     {
-        _bound = _balance && tables.E_ss && tables.q_ms && tables.mu_ms;
+        _bound = _balance && tables.has_albedo() && tables.has_later_bounces();
         _half_strength = detail::select(distribution.is_delta(), Real(0), _half_strength);
     }
 
@@ -115,7 +115,7 @@ Compensated<Lobe, BalancedGain<typename Lobe::Fresnel>> balanced(
     Lobe lobe, const MicrofacetTables& tables,
     typename Lobe::Real strength = typename Lobe::Real(1))
 {
-    if (!lobe.tables().E_ss) lobe.set_tables(tables);
+    if (!lobe.tables().has_albedo()) lobe.set_tables(tables);
     return {lobe, {lobe.distribution(), lobe.fresnel(), tables, strength}};
 }
 

@@ -129,7 +129,7 @@ Compensated<Lobe, MethodGain<typename Lobe::Real>> compensated(
     Lobe lobe, Method method, const MicrofacetTables& tables,
     typename Lobe::Real strength = typename Lobe::Real(1))
 {
-    if (!lobe.tables().E_ss) lobe.set_tables(tables);
+    if (!lobe.tables().has_albedo()) lobe.set_tables(tables);
     return {lobe, MethodGain<typename Lobe::Real>(lobe, method, tables, strength)};
 }
 

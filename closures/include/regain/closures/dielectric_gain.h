@@ -47,7 +47,7 @@ public:
         _index[1] = lobe.relative_index(-up);
         _reflects_only = lobe.scatter_mode() == ScatterMode::R;
         _bound = supports(method) && method != Method::none &&
-                 (_reflects_only ? bool(mirror.E_ss) : bool(tables));
+                 (_reflects_only ? mirror.has_albedo() : bool(tables));
         if (!_bound) return;
 
         const auto& distribution = lobe.distribution();

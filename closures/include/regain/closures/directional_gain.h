@@ -56,7 +56,7 @@ public:
                     const MicrofacetTables& tables, Real strength)
         : _tables(tables), _axes(distribution), _fresnel(fresnel), _strength(Real(0))
     {
-        _bound = tables.E_ss && tables.q_ms && tables.mu_ms;
+        _bound = tables.has_albedo() && tables.has_later_bounces();
         if (!_bound) return;
         const Real s = detail::saturate(strength);
         // A mirror loses nothing to later bounces.
@@ -80,8 +80,9 @@ public:
     Color F_ms(Real mu) const
     {
         // Short of 1, where a perfect mirror's series has no sum.
-        const Real q = detail::min(_axes.later(_tables.q_ms, mu), detail::constant<Real>(0.999));
-        return later_bounces_tint(_fresnel.at(detail::saturate(_axes.later(_tables.mu_ms, mu))), q);
+        const Real q = detail::min(_tables.later_share(_axes, mu), detail::constant<Real>(0.999));
+        return later_bounces_tint(_fresnel.at(detail::saturate(_tables.later_cosine(_axes, mu))),
+                                  q);
     }
 
     /// At full strength; of an anisotropic lobe it is not promised.
@@ -102,7 +103,7 @@ Compensated<Lobe, DirectionalGain<typename Lobe::Fresnel>> directional(
     Lobe lobe, const MicrofacetTables& tables,
     typename Lobe::Real strength = typename Lobe::Real(1))
 {
-    if (!lobe.tables().E_ss) lobe.set_tables(tables);
+    if (!lobe.tables().has_albedo()) lobe.set_tables(tables);
     return {lobe, {lobe.distribution(), lobe.fresnel(), tables, strength}};
 }
 

@@ -105,8 +105,7 @@ public:
           _tilt(Real(0))
     {
         const MicrofacetTables& t = tables;
-        _bound =
-            t.E_ss && t.falloff && t.dip && t.q_ms && t.mu_ms && t.spread && t.forward && t.tilt;
+        _bound = t.has_albedo() && t.has_moments() && t.has_later_bounces() && t.has_later_shape();
         if (!_bound) return;
         const auto loss_at = [this](Real mu) { return loss(mu); };
         _missing = MissingEnergy<Real>(_axes.alpha(), loss_at);
@@ -127,11 +126,11 @@ public:
             const Real m = _mean_cosine[c], most = detail::constant<Real>(0.95),
                        far = detail::max(m, Real(1) - m), product = m * (Real(1) - m);
             _tilt[c] =
-                detail::max(detail::min(_axes.average(t.tilt), most / detail::max(product, tiny)),
+                detail::max(detail::min(t.later_tilt(_axes), most / detail::max(product, tiny)),
                             -most / (far * far));
         }
-        const Real k = _axes.average(t.spread);
-        _azimuth = AzimuthSpread<Real>(k * k, detail::saturate(_axes.average(t.forward)));
+        const Real k = t.later_spread(_axes);
+        _azimuth = AzimuthSpread<Real>(k * k, detail::saturate(t.later_forward(_axes)));
     }
 
     bool bound() const { return _bound; }
@@ -352,7 +351,7 @@ template <class Lobe>
 FittedTail<Lobe> fitted_tail(Lobe lobe, const MicrofacetTables& tables,
                              typename Lobe::Real strength = typename Lobe::Real(1))
 {
-    if (!lobe.tables().E_ss) lobe.set_tables(tables);
+    if (!lobe.tables().has_albedo()) lobe.set_tables(tables);
     return {lobe, tables, strength};
 }
 

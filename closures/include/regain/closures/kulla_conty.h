@@ -83,7 +83,7 @@ public:
         : _tables(tables),
           _axes(distribution),
           _black(distribution.is_delta()),
-          _bound(tables.E_ss),
+          _bound(tables.has_albedo()),
           _tint(Real(1))
     {
         if (_bound)
@@ -282,7 +282,7 @@ template <class Lobe>
 KullaConty<Lobe> kulla_conty(Lobe lobe, KullaContyForm form, const MicrofacetTables& tables,
                              typename Lobe::Real strength = typename Lobe::Real(1))
 {
-    if (!lobe.tables().E_ss) lobe.set_tables(tables);
+    if (!lobe.tables().has_albedo()) lobe.set_tables(tables);
     return {lobe, form, tables, strength};
 }
 

@@ -75,7 +75,8 @@ public:
         : _tables(tables), _axes(lobe.distribution())
     {
         const bool needs_average = method == Method::turquin_eq12 || method == Method::series;
-        _bound = method != Method::none && tables.E_ss && (tables.E_avg || !needs_average);
+        _bound = method != Method::none && tables.has_albedo() &&
+                 (tables.has_average_albedo() || !needs_average);
         if (!_bound) return;
 
         const auto& distribution = lobe.distribution();

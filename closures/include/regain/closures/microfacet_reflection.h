@@ -119,7 +119,7 @@ public:
         Albedo<Real> albedo() const
         {
             const MicrofacetTables& t = _lobe._tables;
-            if (t.E_ss && t.falloff && t.dip) return {tabulated_albedo(), Color(Real(0))};
+            if (t.has_albedo() && t.has_moments()) return {tabulated_albedo(), Color(Real(0))};
             return detail::mean_weight<Real>(*this, detail::grid_rows<Distribution>);
         }
 

@@ -23,6 +23,7 @@
 
 #pragma once
 
+#include <regain/closures/analytic_albedo.h>
 #include <regain/closures/distribution.h>
 #include <regain/closures/fresnel_moments.h>
 
@@ -190,17 +191,28 @@ struct MicrofacetTables
     /// E_ss and E_avg hold natural logarithms: where they fall to a few hundredths, straight lines
     /// between those err less.
     bool logarithmic = false;
+    /// Formulas in place of all tables, which are then not read: see analytic_tables.h.
+    const MicrofacetFits* fits = nullptr;
+
+    /// What can be asked below.
+    bool has_albedo() const { return fits || E_ss; }
+    bool has_average_albedo() const { return fits || E_avg; }
+    bool has_moments() const { return fits || (falloff && dip); }
+    bool has_later_bounces() const { return fits || (q_ms && mu_ms); }
+    bool has_later_shape() const { return fits || (spread && forward && tilt); }
 
     /// E_ss at the cosine mu in [0, 1], at most 1.
     template <class Real>
     Real albedo(const TableAxes<Real>& axes, Real mu) const
     {
+        if (fits) return fits->E_ss(mu, axes.alpha());
         return detail::min(value(axes.directional(E_ss, mu)), Real(1));
     }
     /// The Fresnel moments of what is scattered once, at the cosine mu in [0, 1].
     template <class Real>
     FresnelMoments<Real> moments(const TableAxes<Real>& axes, Real mu) const
     {
+        if (fits) return fits->moments(mu, axes.alpha());
         FresnelMoments<Real> m = FresnelMoments<Real>::at(mu);
         m.falloff += axes.directional(falloff, mu);
         m.dip += axes.directional(dip, mu);
@@ -209,7 +221,34 @@ struct MicrofacetTables
     template <class Real>
     Real average_albedo(const TableAxes<Real>& axes) const
     {
-        return value(axes.average(E_avg));
+        return fits ? fits->E_avg(axes.alpha()) : value(axes.average(E_avg));
+    }
+    /// q_ms and mu_ms at the cosine mu in [0, 1].
+    template <class Real>
+    Real later_share(const TableAxes<Real>& axes, Real mu) const
+    {
+        return fits ? fits->q_ms(mu, axes.alpha()) : axes.later(q_ms, mu);
+    }
+    template <class Real>
+    Real later_cosine(const TableAxes<Real>& axes, Real mu) const
+    {
+        return fits ? fits->mu_ms(mu, axes.alpha()) : axes.later(mu_ms, mu);
+    }
+    /// spread, forward and tilt.
+    template <class Real>
+    Real later_spread(const TableAxes<Real>& axes) const
+    {
+        return fits ? fits->spread(axes.alpha()) : axes.average(spread);
+    }
+    template <class Real>
+    Real later_forward(const TableAxes<Real>& axes) const
+    {
+        return fits ? fits->forward(axes.alpha()) : axes.average(forward);
+    }
+    template <class Real>
+    Real later_tilt(const TableAxes<Real>& axes) const
+    {
+        return fits ? fits->tilt(axes.alpha()) : axes.average(tilt);
     }
 
 private:

@@ -145,7 +145,7 @@ public:
         Albedo<Real> albedo() const
         {
             // The share that is reflected by the mirror's own facets, and all of it by its table.
-            const bool tabulated = bool(_tables.E_ss);
+            const bool tabulated = _tables.has_albedo();
             constexpr int rows = detail::grid_rows<Distribution>;
             const int n = tabulated ? rows / 2 : rows;
             Real all(0), reflected(0);
@@ -268,7 +268,7 @@ Compensated<ThinDielectric<Distribution>, ThinDielectricGain<typename Distributi
 compensated(ThinDielectric<Distribution> sheet, Method method, const MicrofacetTables& tables,
             typename Distribution::Real strength = typename Distribution::Real(1))
 {
-    if (!sheet.tables().E_ss) sheet.set_tables(tables);
+    if (!sheet.tables().has_albedo()) sheet.set_tables(tables);
     return {sheet,
             ThinDielectricGain<typename Distribution::Real>(sheet, method, tables, strength)};
 }

@@ -97,7 +97,8 @@ public:
                   detail::select(_valid, wo, Vec3<Real>(Real(0), Real(0), Real(1))))),
               _visible(closure._distribution.visible(_wo)),
               _weight(detail::select(_valid, Real(1), Real(0))),
-              _knows_share(!Distribution::has_tail && closure._tables.E_ss && closure.isotropic())
+              _knows_share(!Distribution::has_tail && closure._tables.has_albedo() &&
+                           closure.isotropic())
         {
             if (!_knows_share) return;
             const TableAxes<Real> axes(closure._distribution);
@@ -156,7 +157,8 @@ public:
         Albedo<Real> albedo() const
         {
             const MicrofacetTables& t = _closure._tables;
-            if (!(t.E_ss && t.E_avg && t.falloff && t.dip)) return detail::mean_weight<Real>(*this);
+            if (!(t.has_albedo() && t.has_average_albedo() && t.has_moments()))
+                return detail::mean_weight<Real>(*this);
             const MicrofacetReflection<Distribution, Fresnel> lobe(_closure._distribution,
                                                                    _closure._fresnel, t);
             auto prepared = lobe.prepare(_wo);

@@ -5,6 +5,7 @@
 #include "bake_verify.h"
 #include "commands.h"
 #include "errors.h"
+#include "export_fits.h"
 #include "json_fields.h"
 #include "preview/interrupt.h"
 
@@ -45,6 +46,10 @@ is promised for: alpha from 5e-4 and mu from 7e-4 on of gtr and std, mu from 0.0
 they do not. With --spot it does not bake but compares with exact values at K places, which takes a
 second.
 
+--export writes no table but the formulas that can stand in for those of ggx and beckmann mirrors, as
+functions in GLSL or OSL (E_ss, E_avg, q_ms and mu_ms; see docs/methods.md, Without tables). The
+extension of FILE says which.
+
 examples:
   regain bake -o tables                         the tables of ggx mirrors, as EXR files
   regain bake ggx_E_avg -o tables --json
@@ -57,12 +62,13 @@ examples:
   regain bake --verify luts/data/*.exr          the files, too
   regain bake --verify --all --spot 20          all tables that are shipped, at some places
   regain bake --embed luts/src/builtin          the text that is compiled in
+  regain bake --export regain_fits.glsl         formulas in place of tables, for shaders
 )help";
 
 struct Arguments
 {
     Names given;  // names of tables; for --verify files, too
-    std::string output, embed, distribution;
+    std::string output, embed, exported, distribution;
     std::vector<double> gammas;
     int spots = 0;
     bool all = false, verify = false, json = false;
@@ -154,10 +160,26 @@ void print(const luts::Table& table)
     std::fflush(stdout);  // where it is no terminal, a long bake is followed, too
 }
 
+int run_export(const Arguments& a)
+{
+    if (!a.output.empty() || !a.embed.empty() || a.verify || a.spots > 0 || !asked_for(a).empty())
+        throw BadInput("--export writes formulas and no table: give it alone, or with --json");
+    const std::string language = export_language(a.exported);
+    export_fits(a.exported);
+    if (a.json)
+        fmt::print(
+            "{}\n",
+            Json{{"file", a.exported}, {"language", language}, {"functions", exported_functions()}}
+                .dump());
+    else
+        fmt::print("{}: {} functions\n", a.exported, exported_functions().size());
+    return kDone;
+}
+
 int run_bake(const Arguments& a, const InterruptGuard& guard)
 {
     if (a.output.empty() && a.embed.empty())
-        throw BadInput("nothing to do: give -o FOLDER, --embed FOLDER or --verify");
+        throw BadInput("nothing to do: give -o FOLDER, --embed FOLDER, --verify or --export FILE");
     if (a.spots > 0) throw BadInput("--spot belongs to --verify");
     const Names asked = asked_for(a);
     require_tables(asked);
@@ -208,6 +230,7 @@ int run_verify(const Arguments& a, const InterruptGuard& guard)
 
 int run(const Arguments& a)
 {
+    if (!a.exported.empty()) return run_export(a);
     const InterruptGuard guard;
     try
     {
@@ -239,6 +262,9 @@ void add_bake(CLI::App& app, int& exit_code)
         ->type_name("G ...");
     command->add_option("-o,--output", a->output, "folder for EXR files");
     command->add_option("--embed", a->embed, "folder for the text that is compiled in");
+    command
+        ->add_option("--export", a->exported, "file for formulas in place of tables, .glsl or .osl")
+        ->type_name("FILE");
     command->add_flag("--verify", a->verify, "compare with the shipped tables; writes nothing");
     command->add_option("--spot", a->spots, "with --verify: K places only")
         ->type_name("K")

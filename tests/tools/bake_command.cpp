@@ -185,6 +185,39 @@ TEST_F(BakeCommand, wrong_arguments_are_bad_input)
     }
 }
 
+TEST_F(BakeCommand, exports_formulas_in_the_language_of_the_extension)
+{
+    for (const std::string language : {"glsl", "osl"})
+    {
+        const std::string file = "fits." + language;
+        const auto o = run("bake --export FOLDER/" + file + " --json");
+        ASSERT_EQ(o.code, 0) << o.err;
+        EXPECT_EQ(o.json()["language"], language);
+        const std::string text = read(file);
+        for (const json& name : o.json()["functions"])
+            EXPECT_TRUE(says(text, "\nfloat " + name.get<std::string>() + "(float ")) << name;
+        EXPECT_TRUE(says(text, "SPDX-License-Identifier"));
+    }
+    EXPECT_TRUE(says(run("bake --export FOLDER/fits.glsl").out, "fits.glsl: 8 functions"));
+}
+
+TEST_F(BakeCommand, an_export_that_cannot_be_is_bad_input)
+{
+    for (const auto& [arguments, part] : std::vector<std::pair<std::string, std::string>>{
+             {"--export FOLDER/fits.hlsl", "accepted: .glsl, .osl"},
+             {"--export FOLDER/fits", "accepted: .glsl, .osl"},
+             {"--export FOLDER/none/fits.osl", "there is no folder"},
+             {"--export FOLDER/fits.osl ggx_E_ss", "no table"},
+             {"--export FOLDER/fits.osl --verify", "no table"},
+             {"--export FOLDER/fits.osl -o FOLDER", "no table"}})
+    {
+        const auto o = run("bake " + arguments);
+        EXPECT_EQ(o.code, 2) << arguments;
+        EXPECT_TRUE(says(o.err, part)) << arguments << ": " << o.err;
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder / "fits.osl"));
+}
+
 TEST_F(BakeCommand, an_interrupt_leaves_nothing_behind)
 {
     // Once there is the folder, it bakes.

@@ -71,7 +71,8 @@ void visit_domain(const Visit& visit)
     }
 }
 
-TYPED_TEST_SUITE(AnalyticAlbedo, Distributions);
+// The comma is for clang, which misses an argument without it.
+TYPED_TEST_SUITE(AnalyticAlbedo, Distributions, );
 
 // Both what is promised of E_ss itself and of the furnace, which gives back E_ss / fit.
 TYPED_TEST(AnalyticAlbedo, E_ss_is_within_2e_3_from_grazing_to_normal)

@@ -17,19 +17,19 @@
 ///   dip        c (1 - c)^6 N(m, alpha) / D(m, alpha)                          "
 ///   spread, forward, tilt        cubics in s                                 fitted_tail.h
 ///
-/// The form of q_ms and mu_ms is two lines per number: what walks say is no smoother than that.
-/// All come out of bench/fit_albedo.py, quotients with the least largest error that their form has.
-/// Domain: mu in [0, 1], alpha in [0, 1]. There, by bench/fit_error, where E is the exact E_ss,
+/// All come out of bench/fit_albedo.py, quotients with the least largest error that their form has;
+/// q_ms and mu_ms are as simple as what walks say of them is certain. Domain: mu and alpha in
+/// [0, 1]. There, by bench/fit_error and bench/albedo_error,
 ///
-///   E / E_ss                    0.9983 to 1.0017, and 1 for alpha = 0 or mu = 0: so much of the
-///                               light a white furnace gives back
-///   E_avg                       1.3e-4
-///   falloff, dip                1.7e-3, 4.2e-4
+///   exact E_ss / this one       0.9982 to 1.0019, and 1 where alpha or mu is 0: so much does a
+///                               gain by this E_ss leave in a white furnace
+///   E_ss, E_avg                 1.8e-3, 1.3e-4
+///   falloff, dip                1.7e-3, 4.4e-4
 ///   albedo of `directional`     with Schlick's term 4.5e-3, of metals 1.1e-2, from alpha 0.1 and
 ///                               mu 0.05
 ///
-/// Constants are floats: float and double evaluate the same formula. In float the quotients are
-/// good to 2e-5, since their denominators fall to 0.006 of their terms.
+/// Constants are floats: float and double evaluate the same formula. In float E_ss is good to 1e-5,
+/// since Beckmann's D falls to 0.006 of its terms.
 
 #pragma once
 

@@ -42,6 +42,7 @@
 #include <regain/closures/method_gain.h>
 #include <regain/closures/microfacet_reflection.h>
 #include <regain/closures/microsurface_walk.h>
+#include <regain/closures/walk_density.h>
 
 REGAIN_NAMESPACE_BEGIN
 
@@ -274,13 +275,7 @@ public:
                 return single +
                        _rest * wi.z * detail::constant<Real>(0.318309886183790671538) * lobe;
             }
-            const Real slope = Real(2) * wi.z;
-            const Vec3<Real> d(slope * wi.x, slope * wi.y, Real(1) - slope * wi.z);
-            const detail::FacetReflection<Real> lost(distribution, _wo, d);
-            const Real lost_out = area * detail::max(d.z, Real(0)),
-                       lost_stay = distribution.projected_area(-d) * _wo.z;
-            const Real carried =
-                Real(4) * wi.z * lost.quarter_D * lost_stay / (area * (lost_out + lost_stay));
+            const Real carried = detail::carried_density(distribution, _wo, area, wi);
             // Some of it everywhere: no facet that wo sees need lead to where a walk can.
             return Real(0.98f) * (single + carried) +
                    wi.z * detail::constant<Real>(0.02 * 0.318309886183790671538);

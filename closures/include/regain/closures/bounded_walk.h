@@ -31,9 +31,9 @@
 /// the probability min(1, 2 s), s being that of not leaving there, at a weight of s over this.
 ///
 /// sample. The same as Walk's up to N facets: weight = product of F over the bounces. pdf: the
-/// density of the first bounce, exactly, and for the rest LaterDensity of walk_density.h, or without
-/// its tables, or for two alphas, what walk.h does. L1 distance to the density of sample, which is
-/// the mean of |pdf / density - 1| over samples: at most 0.03 for GGX and Beckmann.
+/// density of the first bounce, exactly, and for the rest LaterDensity of walk_density.h, or
+/// without its tables, or for two alphas, what walk.h does. L1 distance to the density of sample,
+/// which is the mean of |pdf / density - 1| over samples: at most 0.03 for GGX and Beckmann.
 ///
 /// The pdf is not the density all the same, and what walk.h says about hosts holds here.
 
@@ -92,8 +92,8 @@ Real steepness(const Real& z)
 }  // namespace detail
 
 template <class DistributionType, class FresnelType>
-class BoundedWalk : public Shorthands<BoundedWalk<DistributionType, FresnelType>,
-                                      typename DistributionType::Real>
+class BoundedWalk
+    : public Shorthands<BoundedWalk<DistributionType, FresnelType>, typename DistributionType::Real>
 {
 public:
     using Distribution = DistributionType;
@@ -105,14 +105,17 @@ public:
     static constexpr bool stochastic_eval = true;
 
     /// eval_samples: walks that an eval takes, at least 1. `tables` sharpen the pdf, which takes
-    /// E_ss, E_avg, spread and forward, and make albedo() a look-up. bounces: N, in [2, 32], clamped.
+    /// E_ss, E_avg, spread and forward, and make albedo() a look-up. bounces: N, in [2, 32],
+    /// clamped.
     BoundedWalk(const Distribution& distribution, const Fresnel& fresnel, int eval_samples = 1,
                 const MicrofacetTables& tables = {}, int bounces = default_bounces)
         : _distribution(distribution),
           _fresnel(fresnel),
           _later(distribution, tables),
           _eval_samples(eval_samples < 1 ? 1 : eval_samples),
-          _bounces(bounces < 2 ? 2 : bounces > most_bounces ? most_bounces : bounces)
+          _bounces(bounces < 2              ? 2
+                   : bounces > most_bounces ? most_bounces
+                                            : bounces)
     {}
 
     const Distribution& distribution() const { return _distribution; }
@@ -146,9 +149,9 @@ public:
               _visible(closure._distribution.visible(_wo)),
               _weight(detail::select(_valid, Real(1), Real(0))),
               _knows_rest(closure._later.bound() && closure.isotropic()),
-              _rest(_knows_rest ? detail::max(closure._later.lost(_wo.z),
-                                              detail::constant<Real>(1e-4))
-                                : Real(0))
+              _rest(_knows_rest
+                        ? detail::max(closure._later.lost(_wo.z), detail::constant<Real>(1e-4))
+                        : Real(0))
         {}
 
         const Vec3<Real>& wo() const { return _wo; }
@@ -370,39 +373,39 @@ public:
             Ray ray(distribution, first.departing);
             Phases phases(start.z, seen.projected_area());
             Mask active = detail::both<Real>(_valid, !_delta);
-            // It may not leave at once: that is known exactly.
-            Real stays = ray.stays(phases), goes_on = detail::min(Real(2) * stays, Real(1));
-            Color weight = F * stays;
+            Real stays = ray.stays(phases);
+            Color weight = F;
             ray.sinks(phases, active);
             // R without what belongs to the end.
             Real ratio = Real(4) * seen.projected_area() /
                          (distribution.D(first.normal, Real(1)) * end_area);
 
             Color sum(Real(0));
-            const auto join = [&](int n) {
+            const auto join = [&](int n, const Color& throughput) {
                 const detail::FacetReflection<Real> facet(distribution, -ray.d, end);
                 const Real R = detail::tempered_ratio(ratio * facet.quarter_D, n);
                 const Real value = facet.quarter_D / ray.area *
                                    phases.escape_probability(end.z, end_stay) /
                                    (p_start + p_end * R);
-                sum += detail::select(active, weight * _closure._fresnel.at(facet.cosine) * value,
-                                      Color(Real(0)));
+                sum +=
+                    detail::select(active, throughput * _closure._fresnel.at(facet.cosine) * value,
+                                   Color(Real(0)));
             };
-            join(2);
+            // It may not leave at once: that is known exactly.
+            join(2, weight * stays);
             Real step = three ? stream.next() : detail::saturate(u.z);
             for (int n = 2;; ++n)
             {
-                active = detail::both<Real>(active, step < goes_on);
+                active = detail::both<Real>(active, step < detail::min(Real(2) * stays, Real(1)));
                 if (!detail::any<Real>(active)) break;
-                const Real scale = Real(1) / detail::select(active, goes_on, Real(1));
+                const Real scale = detail::max(stays, Real(0.5f));
                 weight *= scale;
                 if (n > 2)
                 {
                     // What is left of the number decides where it stays.
-                    weight *= stays;
-                    ray.rises(phases, step * scale * stays, active);
+                    ray.rises(phases, step * scale, active);
                     ray.sinks(phases, active);
-                    join(n);
+                    join(n, weight);
                 }
                 const Real before = ray.area;
                 ray = Ray(distribution, next_facet(ray, stream, F));
@@ -420,7 +423,6 @@ public:
                 ratio = detail::min(
                     ratio * before / detail::max(ray.area + ray.d.z, detail::constant<Real>(1e-30)),
                     detail::constant<Real>(1e20));
-                goes_on = detail::min(Real(2) * stays, Real(1));
                 step = stream.next();
             }
             // f is the same from either end.

@@ -35,10 +35,7 @@ public:
     using Mask = MaskOf<Real>;
 
     /// At the first facet that a ray meets; z and area of what is against it.
-    WalkPhases(const Real& z, const Real& area) : _size(Real(1)), _most(1)
-    {
-        _rate[0] = area / z;
-    }
+    WalkPhases(const Real& z, const Real& area) : _size(Real(1)), _most(1) { _rate[0] = area / z; }
 
     /// Probability that a ray from here leaves upwards.
     Real escape_probability(const Real& z, const Real& area) const

@@ -80,6 +80,48 @@ TEST(BoundedWalk, bound_is_clamped)
     EXPECT_EQ(white_bounded(distribution, 1000).bounces(), most_bounces);
 }
 
+// Rays up and down in turn, of very different rates: as many leave at each, and as late ones would
+// leave straight up, as where depths are drawn.
+TEST(BoundedWalk, phases_are_the_law_of_the_depth)
+{
+    const double rates[] = {0.3, 4, 6, 9, 0.2, 5, 0.5, 2, 1};
+    const bool up[] = {false, false, true, true, false, true, false, true, true};
+    constexpr int steps = 9, n = 400000;
+    Random random = random_of_test();
+    double left[2][steps] = {};
+    Mean straight[2];
+    const auto exponential = [&](double rate) { return -std::log(1 - random.unit()) / rate; };
+    for (int i = 0; i < n; ++i)
+    {
+        regain::detail::WalkPhases<double, 8> phases(1.0, 0.7);
+        double depth = exponential(0.7);
+        bool inside[2] = {true, true};
+        for (int k = 0; k < steps; ++k)
+        {
+            if (inside[0] && up[k])
+            {
+                const double stays = phases.stay_probability(1, rates[k]);
+                ASSERT_NEAR(stays, 1 - phases.escape_probability(1, rates[k]), 1e-12);
+                inside[0] = !phases.rise(1, rates[k], random.unit(), true);
+                left[0][k] += !inside[0];
+            }
+            else if (inside[0])
+                phases.sink(1, rates[k], true);
+            if (!inside[1]) continue;
+            depth += (up[k] ? -1 : 1) * exponential(rates[k]);
+            inside[1] = depth > 0;
+            left[1][k] += !inside[1];
+        }
+        if (inside[0]) straight[0].add(phases.escape_probability(1, 0.8));
+        if (inside[1]) straight[1].add(std::exp(-0.8 * depth));
+    }
+    for (int k = 0; k < steps; ++k)
+        EXPECT_LE(std::abs(left[0][k] - left[1][k]), 4.5 * std::sqrt(left[0][k] + left[1][k]));
+    EXPECT_NEAR(straight[0].value(), straight[1].value(),
+                4.5 * std::hypot(straight[0].error(), straight[1].error()));
+    EXPECT_LT(straight[0].error(), straight[1].error());
+}
+
 // As many walks of each order as the plain walk has, which draws depths where this one does not.
 TEST(BoundedWalk, meets_as_many_facets_as_the_plain_walk)
 {

@@ -20,20 +20,22 @@
 /// A path can be found from either end, and the ratio R of the densities with which it is
 /// is a product of what is at hand anyway, as sigma(v) p(v -> w) = D / 4 = sigma(w) p(w -> v):
 ///
-///   R = D(h_k) sigma(wo) / (D(h_1) sigma(wi)) product_1^{k-2} sigma(-d_j) / product_2^{k-1}
-///   sigma(d_j)
+///   R = D(h_k) sigma(wo) U / (D(h_1) sigma(wi) V),
+///   U = product of sigma(-d_j), j = 1 .. k - 2,    V = product of sigma(d_j), j = 2 .. k - 1
 ///
-/// so the estimates of the two kinds are weighed against each other: by the balance heuristic
-/// (Veach and Guibas 1995) for two facets, and for more by the same after R has been brought
-/// nearer to 1 by up to a factor of 10: where both find a path about as well, weights by density
-/// are noise. wo is chosen with the probability mu_i / (mu_o + mu_i): what grazes makes the better
-/// start. Depths are integrated over, not drawn: walk_phases.h. A walk goes on past a facet with
-/// the probability min(1, 2 s), s being that of not leaving there, at a weight of s over this.
+/// h_j being the normals of k facets and d_j the rays between them. So the estimates of the two
+/// kinds are weighed against each other: by the balance heuristic (Veach and Guibas 1995) for two
+/// facets, and for more by the same after R has been brought nearer to 1 by up to a factor of 10:
+/// where both find a path about as well, weights by density are noise. wo is chosen with the
+/// probability mu_i / (mu_o + mu_i): what grazes makes the better start. Depths are integrated
+/// over, not drawn: walk_phases.h. A walk goes on past a facet with the probability min(1, 2 s), s
+/// being that of not leaving there, at a weight of s over this.
 ///
 /// sample. The same as Walk's up to N facets: weight = product of F over the bounces. pdf: the
 /// density of the first bounce, exactly, and for the rest LaterDensity of walk_density.h, or
-/// without its tables, or for two alphas, what walk.h does. L1 distance to the density of sample,
-/// which is the mean of |pdf / density - 1| over samples: at most 0.03 for GGX and Beckmann.
+/// without its tables, or for two alphas, what walk.h does. With tables the L1 distance to the
+/// density of sample, which is the mean of |pdf / density - 1| over samples, is 0.04 at most for
+/// GGX and Beckmann in the mean over wo, and 0.08 for single ones.
 ///
 /// The pdf is not the density all the same, and what walk.h says about hosts holds here.
 

@@ -127,26 +127,28 @@ private:
 ///              reflected     0.015          z / (z + 1/2)
 ///   eta < 1    transmitted   b              z / (z + 3/10)
 ///              reflected     1 - b          (1 - mu_o) z / (z + mu_o + 1/5)^2 + mu_o z
-///              b = eta^2 mu_o (0.6 - 0.3 m + 2 (eta - 2/3)), the bracket in [0.25, 1.2]
+///              b = eta^2 mu_o (0.3 + (1 - m)(0.3 + 0.15 alpha) + 2 (eta - 2/3)), the bracket in
+///                  [0.25, 1.2]
 ///
 /// times 2 pi Phi. With k and m those of conductors, its own are k (1 - alpha m / 2) and
-/// (1 + m) / 2. A twentieth is a cosine lobe on either side.
+/// 1 - (1 - m) / 2 outside, k (1 - 0.8 alpha^2 m) and 1 - 0.4 (1 - m) inside. A twentieth is a
+/// cosine lobe on either side.
 template <class Real>
 class LaterDielectricDensity
 {
 public:
     LaterDielectricDensity(const ForwardAzimuth<Real>& azimuth, const Real& alpha, const Real& eta,
                            const Real& mu)
-        : _azimuth(azimuth.spread() * (Real(1) - Real(0.5f) * alpha * azimuth.forward()),
-                   Real(0.5f) * (Real(1) + azimuth.forward())),
-          _inside(eta < Real(1)),
-          _mu(min(mu, Real(1))),
-          _power(Real(1) + Real(0.8f) * alpha)
+        : _inside(eta < Real(1)), _mu(min(mu, Real(1))), _power(Real(1) + Real(0.8f) * alpha)
     {
-        const Real slope = max(min(constant<Real>(0.6) - constant<Real>(0.3) * azimuth.forward() +
-                                       Real(2) * (eta - constant<Real>(2.0 / 3)),
-                                   constant<Real>(1.2)),
-                               constant<Real>(0.25));
+        const Real one(1), m = azimuth.forward(), any_way = one - m;
+        const Real narrower = select(_inside, constant<Real>(0.8) * alpha * alpha, alpha / Real(2));
+        _azimuth = {azimuth.spread() * (one - narrower * m),
+                    one - any_way * select(_inside, constant<Real>(0.4), Real(0.5f))};
+        const Real steepness = constant<Real>(0.3) + any_way * constant<Real>(0.3) +
+                               any_way * alpha * constant<Real>(0.15) +
+                               Real(2) * (eta - constant<Real>(2.0 / 3));
+        const Real slope = max(min(steepness, constant<Real>(1.2)), constant<Real>(0.25));
         _passes = select(_inside, min(eta * eta * _mu * slope, constant<Real>(0.95)),
                          constant<Real>(0.985));
         _shift = _mu + constant<Real>(0.2);

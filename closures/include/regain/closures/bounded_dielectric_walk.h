@@ -31,7 +31,7 @@
 
 #include <regain/closures/beta_function.h>
 #include <regain/closures/bounded_walk.h>
-#include <regain/closures/dielectric.h>
+#include <regain/closures/dielectric_walk.h>
 #include <regain/closures/microsurface_walk.h>
 
 REGAIN_NAMESPACE_BEGIN
@@ -94,6 +94,7 @@ public:
               _valid(detail::is_off_horizon(wo)),
               _flat(_distribution.is_delta()),
               _narrow(closure._lobe.transmits_delta()),
+              _eta(closure.eta()),
               _side(detail::select(detail::both<Real>(_valid, detail::quiet_less(wo.z, Real(0))),
                                    Real(-1), Real(1))),
               _wo(detail::normalised(
@@ -101,8 +102,6 @@ public:
               _visible(_distribution.visible(_wo)),
               _ahead(closure._lobe.relative_index(Vec3<Real>(Real(0), Real(0), _side))),
               _behind(closure._lobe.relative_index(Vec3<Real>(Real(0), Real(0), -_side))),
-              _T_to_T(transmitted_share(0.99)),
-              _R_to_T(transmitted_share(0.88)),
               _knows_rest(closure._lobe.tables() && closure.isotropic()),
               _rest(lost(closure)),
               _later(closure._azimuth, _distribution.effective_alpha(), _ahead.eta, _wo.z),
@@ -221,12 +220,6 @@ public:
                                                         detail::min(_wo.z, Real(1))),
                 detail::constant<Real>(1e-4));
         }
-        Real transmitted_share(double entering) const
-        {
-            return detail::select(_ahead.minus_one < Real(0), _ahead.eta * _ahead.eta * _wo.z,
-                                  detail::constant<Real>(entering));
-        }
-
         Vec3<Real> turned(const Vec3<Real>& w) const { return {w.x, w.y, w.z * _side}; }
         static Vec3<Real> outward(const Vec3<Real>& w) { return {w.x, w.y, detail::abs(w.z)}; }
         Color tint(const Mask& beyond) const
@@ -430,64 +423,31 @@ public:
         // Near the density of sample, per steradian; wi on the side of wo.
         Real density(const Vec3<Real>& wi) const
         {
-            const Mask beyond = wi.z < Real(0);
-            const Vec3<Real> up = outward(wi);
-            // Where light passes undeflected there is nothing to know.
-            if (_knows_rest && !detail::any<Real>(_narrow))
-                return single(up, beyond) + _rest * _later.at(_wo, up, beyond);
-            const Real area_i = _distribution.projected_area(-up);
-            const Real slope = Real(2) * up.z;
-            const Vec3<Real> d(slope * up.x, slope * up.y, Real(1) - slope * up.z);
-            const Real d_out = detail::max(d.z, Real(0)), area_d = _distribution.projected_area(-d);
-
-            const Real lost_R = reflected(_wo, d, _ahead) * (Real(1) - leaves(d_out, area_d));
-            const Real carried = Real(4) * up.z;
             Real value(0);
-            if (!detail::all<Real>(beyond))
+            // Where light passes undeflected there is nothing to know.
+            const Mask unknown = _knows_rest ? _narrow : Mask(true);
+            if (!detail::all<Real>(unknown))
             {
-                const Real lost_T = refracted(_wo, detail::mirrored(d), _ahead) *
-                                    (Real(1) - leaves_beyond(d_out, area_d));
-                value = reflected(_wo, up, _ahead) * leaves(up.z, area_i) +
-                        carried * (lost_R * (Real(1) - _R_to_T) + lost_T * (Real(1) - _T_to_T));
+                const Mask beyond = wi.z < Real(0);
+                const Vec3<Real> up = outward(wi);
+                value = single(up, beyond) + _rest * _later.at(_wo, up, beyond);
             }
-            if (detail::any<Real>(beyond))
+            if (detail::any<Real>(unknown))
             {
-                const Real out = leaves_beyond(up.z, area_i);
-                const Real through = refracted(_wo, detail::mirrored(up), _ahead) *
-                                         (out + (Real(1) - out) * _T_to_T) +
-                                     refracted(_wo, up, _ahead) * _T_to_T +
-                                     carried * lost_R * _R_to_T;
-                value = detail::select(beyond, through, value);
+                const DielectricWalk<Distribution> plain(_distribution, _eta);
+                value = detail::select(unknown, plain.prepare(wo()).pdf(turned(wi)), value);
             }
-            // Some of it everywhere: no facet that wo sees need lead to where a walk can. Where
-            // light passes undeflected, what is left may be next to nothing.
-            const Real even =
-                detail::select(_narrow, detail::constant<Real>(1e-6), detail::constant<Real>(0.02));
-            return (Real(1) - even) * value / _visible.projected_area() +
-                   up.z * even * detail::constant<Real>(0.159154943091895336);
-        }
-        Real leaves(const Real& z, const Real& area_i) const
-        {
-            const Real out = z * _visible.projected_area();
-            return out / (out + area_i * _wo.z);
-        }
-        Real leaves_beyond(const Real& z, const Real& area_i) const
-        {
-            const Real out = z * _wo.z;
-            return out / (out + area_i * _visible.projected_area());
+            return value;
         }
 
         Distribution _distribution;
         int _samples, _bounces;
         Mask _valid, _flat, _narrow;
+        Real _eta;       // of the interface
         Real _side;      // 1 above, -1 below
         Vec3<Real> _wo;  // above
         Visible _visible;
         RelativeIndex<Real> _ahead, _behind;  // seen from wo, and from the other side
-        // What becomes of light that does not leave at once, by measurement: nearly all of it ends
-        // in the denser medium. Seen from there, eta_o^2 is the share of a diffuse flux that can
-        // leave, and little can that travels flat.
-        Real _T_to_T, _R_to_T;
         bool _knows_rest;
         Real _rest;
         detail::LaterDielectricDensity<Real> _later;

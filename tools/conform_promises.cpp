@@ -30,6 +30,9 @@ std::optional<double> tint_of(const shaders::Compensation& method, DistributionK
     if (std::holds_alternative<shaders::Directional>(method) ||
         std::holds_alternative<shaders::Tail>(method))
         return 1.2e-2;
+    // Light beyond so many facets.
+    if (const auto* walk = std::get_if<shaders::RandomWalk>(&method); walk && walk->bounded)
+        return tail ? 2e-2 : 1e-3;
     if (std::holds_alternative<shaders::Balanced>(method)) return tail ? 0.06 : 1.6e-2;
     const auto* gain = std::get_if<Method>(&method);
     if (!gain) return std::nullopt;
@@ -148,6 +151,12 @@ Promises promises_of(const ClosureSpec& spec, const Imath::V3d& wo)
         // Looked up as that of the series.
         if (!glass && !std::holds_alternative<ConstantParameters>(spec.fresnel))
             p.albedo = spec.distribution == DistributionKind::std ? 0.08 : 0.05;
+        if (std::get<shaders::RandomWalk>(spec.method).bounded)
+        {
+            // By the tables of single scattering.
+            p.pdf = glass ? 3e-3 : spec.distribution == DistributionKind::ggx ? 1e-3 : 5e-3;
+            if (!glass) p.albedo = 0.02;
+        }
     }
     if (!walks && (!in_range || !isotropic || alpha < 1e-3)) p.furnace = std::nullopt;
     if (!isotropic)

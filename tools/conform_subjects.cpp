@@ -282,8 +282,8 @@ private:
         {
             spec.method = *shaders::compensation_named(method);
             const auto* gain = std::get_if<Method>(&spec.method);
-            if ((gain && *gain == Method::none) ||
-                std::holds_alternative<shaders::RandomWalk>(spec.method))
+            const auto* other_walk = std::get_if<shaders::RandomWalk>(&spec.method);
+            if ((gain && *gain == Method::none) || (other_walk && !(other_walk->bounded && walk)))
                 continue;
             // Of dielectrics these two are one formula, and so are those of Eq. 6.
             if (spec.lobe == Lobe::dielectric &&

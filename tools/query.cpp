@@ -42,19 +42,19 @@ fields of a line
   thin_walled   of dielectric: true for a sheet; tint: [r,g,b] of all that it scatters
   color, weight of sheen; default 1
   method      none (default), normalise, turquin, turquin-eq12, turquin-eq13, turquin-eq14, series,
-              directional, balanced, kulla-conty, kulla-conty-series, tail, walk, burley-sheen;
-              docs/support.md says what goes with what
-  strength    of the method, in [0, 1]; default 1; 0 or 1 for walk
+              directional, balanced, kulla-conty, kulla-conty-series, tail, walk, walk-bounded,
+              burley-sheen; docs/support.md says what goes with what
+  strength    of the method, in [0, 1]; default 1; 0 or 1 for walk, walk-bounded
   precision   float (default), double
   transport   importance (default), radiance: transmitted values and weights times the squared ratio
               of the indices on the sides of wo and wi
   wo          [x, y, z], a unit vector (length 1 within 0.001; used as given), z = normal; or
   mu          in [-1, 1], for wo = [sqrt(1 - mu^2), 0, mu]
-  wi          eval, pdf
+  wi          eval, pdf; gain of balanced
   u           sample: [u1, u2], each in [0, 1), or [u1, u2, u3] where the closure reads three:
               dielectric, gtr, std, sheen and every method that is no gain; or
   n, seed     sample: n samples (up to 1000000) from the seed (default 0)
-  u; n, seed  eval of walk, an estimate: [u1, u2, u3], or the mean of n (default 1024)
+  u; n, seed  eval of walks, an estimate: [u1, u2, u3], or the mean of n (default 1024)
   how         albedo: quadrature (default), table, monte-carlo (with n, default 65536, and seed;
               the default of walk, and of kulla-conty on a dielectric)
   order       albedo of walk: light of so many bounces alone

@@ -19,6 +19,7 @@ std::vector<Compensation> every_compensation()
     all.insert(all.end(), std::begin(all_kulla_conty_forms), std::end(all_kulla_conty_forms));
     all.push_back(Tail{});
     all.push_back(RandomWalk{});
+    all.push_back(RandomWalk{1, true});
     all.push_back(BurleySheen{});
     return all;
 }
@@ -57,7 +58,9 @@ std::string_view name(const Compensation& compensation)
     if (std::holds_alternative<Directional>(compensation)) return "directional";
     if (std::holds_alternative<Balanced>(compensation)) return "balanced";
     if (std::holds_alternative<Tail>(compensation)) return "tail";
-    return std::holds_alternative<RandomWalk>(compensation) ? "walk" : "burley-sheen";
+    if (const auto* walk = std::get_if<RandomWalk>(&compensation))
+        return walk->bounded ? "walk-bounded" : "walk";
+    return "burley-sheen";
 }
 
 std::optional<Compensation> compensation_named(std::string_view wanted)
@@ -90,7 +93,8 @@ void MicrofacetMaterial::bind_tables(bool for_albedo)
         throw std::invalid_argument("the method " + std::string(name(method)) + " " + why);
     };
     const auto* gain = std::get_if<Method>(&method);
-    const bool is_walk = std::holds_alternative<RandomWalk>(method);
+    const auto* walk = std::get_if<RandomWalk>(&method);
+    const bool is_walk = walk != nullptr, bounded = walk && walk->bounded;
     if (std::holds_alternative<SheenSurface>(surface))
     {
         if (!gain || *gain != Method::none)
@@ -109,25 +113,34 @@ void MicrofacetMaterial::bind_tables(bool for_albedo)
         if (!is_walk && !adds && !(gain && DielectricGain<double>::supports(*gain)))
             refuse(
                 "does not go with dielectrics; accepted: none, normalise, turquin, kulla-conty, "
-                "kulla-conty-series, walk");
+                "kulla-conty-series, walk, walk-bounded");
     }
     _tables = {};
     _interface_tables = {};
     const bool gains = !(is_walk || std::holds_alternative<BurleySheen>(method) ||
                          (gain && *gain == Method::none));
     // Those of GGX mirrors cost nothing; others are files.
-    if (!gains && !for_albedo && distribution != DistributionKind::ggx) return;
+    if (!gains && !bounded && !for_albedo && distribution != DistributionKind::ggx) return;
     const std::string names(name(distribution));
     if (!interface || interface->thin_walled ||
         (interface->mode == ScatterMode::R && !std::holds_alternative<KullaContyForm>(method)))
     {
         _tables = luts::microfacet_tables(names);
-        const bool tail = std::holds_alternative<Tail>(method);
+        // Of a bounded walk they sharpen the pdf.
+        const bool tail = bounded || std::holds_alternative<Tail>(method);
         const bool balanced = std::holds_alternative<Balanced>(method);
         if (tail || balanced || std::holds_alternative<Directional>(method))
             luts::add_later_bounces(_tables, names);
         if (balanced) luts::add_balance(_tables, names);
         if (tail) luts::add_later_shape(_tables, names);
+    }
+    else if (bounded)
+    {
+        _tables = luts::microfacet_tables(names);
+        luts::add_later_shape(_tables, names);
+        // For one gamma there are no tables but those that somebody bakes.
+        if (!has_gamma(distribution))
+            _interface_tables = luts::dielectric_tables(names, TransmissionShadowing::beta);
     }
     else if (gains || (for_albedo && !is_walk))
         _interface_tables = luts::dielectric_tables(names, interface->shadowing, gamma);

@@ -88,6 +88,23 @@ public:
             return Walk<Distribution, SchlickFresnel<Number>>(distribution(s), schlick_curve(s), 1,
                                                               mirror_tables(d));
         });
+        add(Lobe::schlick, "walk-bounded", [=](const Parameters& s) {
+            MicrofacetTables tables = mirror_tables(d);
+            luts::add_later_bounces(tables, d);
+            luts::add_later_shape(tables, d);
+            return BoundedWalk<Distribution, SchlickFresnel<Number>>(distribution(s),
+                                                                     schlick_curve(s), 1, tables);
+        });
+        add(Lobe::dielectric, "walk-bounded", ScatterMode::RT, TransmissionShadowing::beta,
+            [=](const Parameters& s) {
+                MicrofacetTables tables = mirror_tables(d);
+                luts::add_later_shape(tables, d);
+                return BoundedDielectricWalk<Distribution>(
+                    distribution(s), number(s, &Parameters::eta),
+                    color(s, &Parameters::reflection_tint),
+                    color(s, &Parameters::transmission_tint), 1,
+                    glass_tables(d, TransmissionShadowing::beta), tables);
+            });
         add(Lobe::dielectric, "walk", ScatterMode::RT, TransmissionShadowing::beta,
             [=](const Parameters& s) {
                 return DielectricWalk<Distribution>(distribution(s), number(s, &Parameters::eta),

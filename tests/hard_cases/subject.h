@@ -107,7 +107,7 @@ struct Kind
     bool is_mirror() const { return lobe == Lobe::conductor || lobe == Lobe::schlick; }
     bool has_two_sides() const { return lobe == Lobe::dielectric || lobe == Lobe::sheet; }
     bool has_tail() const { return distribution == "gtr" || distribution == "std"; }
-    bool is_walk() const { return method == "walk"; }
+    bool is_walk() const { return method.rfind("walk", 0) == 0; }
     bool is_bare() const { return method == "none"; }
     bool has_added_lobe() const { return method == "tail" || method.rfind("kulla-conty", 0) == 0; }
 };

@@ -54,9 +54,9 @@ TEST_F(FiguresCommand, makes_pictures_plots_captions_and_numbers)
     }
     // What the table has to show of every method.
     const json& numbers = figure(all, "table1")["numbers"];
-    for (const char* method :
-         {"none", "normalise", "turquin", "turquin-eq12", "turquin-eq13", "turquin-eq14", "series",
-          "directional", "balanced", "kulla-conty", "kulla-conty-series", "tail", "walk"})
+    for (const char* method : {"none", "normalise", "turquin", "turquin-eq12", "turquin-eq13",
+                               "turquin-eq14", "series", "directional", "balanced", "kulla-conty",
+                               "kulla-conty-series", "tail", "walk", "walk-bounded"})
         for (const char* what :
              {"energy_worst", "tint_worst", "tint_rms", "shape_mean", "reciprocity_worst",
               "weight_variance", "eval_ns", "sample_ns", "table_bytes"})

@@ -10,6 +10,7 @@
 #include "measures.h"
 
 #include <regain/closures/balanced_gain.h>
+#include <regain/closures/bounded_walk.h>
 #include <regain/closures/compensated.h>
 #include <regain/closures/conductor_fresnel.h>
 #include <regain/closures/constant_fresnel.h>
@@ -235,6 +236,15 @@ auto walking()
     };
 }
 
+auto walking_within_bounds()
+{
+    return [](const auto& distribution, const auto& fresnel) {
+        using Distribution = std::decay_t<decltype(distribution)>;
+        using Fresnel = std::decay_t<decltype(fresnel)>;
+        return BoundedWalk<Distribution, Fresnel>(distribution, fresnel, 1, luts::ggx_tables());
+    };
+}
+
 Truth walk_truth(const Request& request)
 {
     const auto tint_walks =
@@ -368,6 +378,8 @@ Figure make_table1(const Request& request)
             bytes(tables.mu_ms) + bytes(tables.spread) + bytes(tables.forward) +
             bytes(tables.tilt));
     add("walk", "replaces the lobe", walking(), 0);
+    add("walk-bounded", "replaces the lobe", walking_within_bounds(),
+        E_ss + E_avg + bytes(tables.spread) + bytes(tables.forward));
     std::vector<Clocked> clocks;
     for (const Row& row : rows) clocks.push_back(row.clocked);
     const std::vector<Times> times = clocked(clocks, request);

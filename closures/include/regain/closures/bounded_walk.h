@@ -214,7 +214,7 @@ public:
         Albedo<Real> albedo() const
         {
             const MicrofacetTables& t = _closure.tables();
-            if (!(t.E_ss && t.falloff && t.dip && t.q_ms && t.mu_ms))
+            if (!(t.has_albedo() && t.has_moments() && t.has_later_bounces()))
                 return detail::mean_weight<Real>(*this);
             auto prepared = MicrofacetReflection<Distribution, Fresnel>(_closure._distribution,
                                                                         _closure._fresnel, t)

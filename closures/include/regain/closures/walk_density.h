@@ -46,9 +46,9 @@ public:
     /// As `tables` have it of a distribution; any way where they do not.
     ForwardAzimuth(const MicrofacetTables& tables, const TableAxes<Real>& axes)
     {
-        if (!tables.spread || !tables.forward) return;
-        const Real root = axes.average(tables.spread);
-        *this = {root * root, saturate(axes.average(tables.forward))};
+        if (!tables.has_later_shape()) return;
+        const Real root = tables.later_spread(axes);
+        *this = {root * root, saturate(tables.later_forward(axes))};
     }
 
     Real spread() const { return _k; }
@@ -97,7 +97,7 @@ public:
         _azimuth = ForwardAzimuth<Real>(tables, _axes);
     }
 
-    bool bound() const { return _tables.E_ss && _tables.E_avg; }
+    bool bound() const { return _tables.has_albedo() && _tables.has_average_albedo(); }
     const MicrofacetTables& tables() const { return _tables; }
 
     /// 1 - E_ss(mu).

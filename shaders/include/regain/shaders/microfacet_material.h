@@ -22,6 +22,8 @@
 
 #include <regain/closures/balanced_gain.h>
 #include <regain/closures/beckmann.h>
+#include <regain/closures/bounded_dielectric_walk.h>
+#include <regain/closures/bounded_walk.h>
 #include <regain/closures/conductor_fresnel.h>
 #include <regain/closures/dielectric_gain.h>
 #include <regain/closures/dielectric_kulla_conty.h>
@@ -98,9 +100,11 @@ constexpr bool has_gamma(DistributionKind d)
 }
 
 /// The random walk that replaces the lobe, at any strength but 0; walks that one eval takes.
+/// `bounded`: that of bounded_walk.h, which meets a number of facets at most.
 struct RandomWalk
 {
     int eval_samples = 1;
+    bool bounded = false;
 };
 
 /// The gain whose colour depends on the direction.
@@ -183,8 +187,11 @@ public:
             if (i->thin_walled)
                 return visit(compensated(ThinDielectric(d, eta, i->mode, tint, tint, _tables),
                                          gain_method(), _tables, strength));
-            if (const auto* walk = random_walk(strength))
-                return visit(DielectricWalk(d, eta, tint, tint, walk->eval_samples));
+            const auto* walk = random_walk(strength);
+            if (walk && walk->bounded)
+                return visit(BoundedDielectricWalk(d, eta, tint, tint, walk->eval_samples,
+                                                   _interface_tables, _tables));
+            if (walk) return visit(DielectricWalk(d, eta, tint, tint, walk->eval_samples));
             const Dielectric lobe(d, eta, i->mode, tint, tint, i->shadowing, _interface_tables);
             if (std::holds_alternative<KullaContyForm>(method))
                 return visit(kulla_conty(lobe, _interface_tables, strength));
@@ -221,7 +228,11 @@ private:
             return visit(kulla_conty(lobe, *form, _tables, strength));
         if (std::holds_alternative<Tail>(method))
             return visit(fitted_tail(lobe, _tables, strength));
-        if (const auto* walk = random_walk(strength))
+        const auto* walk = random_walk(strength);
+        if (walk && walk->bounded)
+            return visit(
+                BoundedWalk(lobe.distribution(), lobe.fresnel(), walk->eval_samples, _tables));
+        if (walk)
             return visit(Walk(lobe.distribution(), lobe.fresnel(), walk->eval_samples, _tables));
         if (std::holds_alternative<BurleySheen>(method)) return visit(burley_sheen(lobe, strength));
         return visit(compensated(lobe, gain_method(), _tables, strength));

@@ -52,6 +52,9 @@ public:
     explicit Beckmann(Real alpha_x, Real alpha_y) : Widths(alpha_x, alpha_y) {}
     explicit Beckmann(Real alpha) : Beckmann(alpha, alpha) {}
 
+    /// Of slopes, which have none: see anisotropy.h.
+    Real tail_length() const { return Real(0); }
+
     /// D of the normal m along h, which need not be unit: length2 = h.h. Per steradian.
     Real D(const Vec3<Real>& h, Real length2) const
     {

@@ -71,7 +71,7 @@ public:
         const Real mu = detail::saturate(detail::abs(wo.z));
         const Real E =
             _reflects_only
-                ? _mirror.albedo(_axes, mu)
+                ? _axes.albedo(_mirror, {wo.x, wo.y, mu})
                 : _tables.albedo(_axes.alpha(), detail::select(below, _index[1].eta, _index[0].eta),
                                  mu);
         const Real s = detail::select(below, _strength[1], _strength[0]);
@@ -86,7 +86,7 @@ public:
 private:
     DielectricTables _tables;
     MicrofacetTables _mirror;
-    TableAxes<Real> _axes;
+    DirectionAxes<Real> _axes;
     RelativeIndex<Real> _index[2];  // from above, from below
     Real _strength[2] = {Real(0), Real(0)};
     bool _reflects_only = false, _bound = false, _preserves = false;

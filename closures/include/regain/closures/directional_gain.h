@@ -61,7 +61,7 @@ public:
         const Real s = detail::saturate(strength);
         // A mirror loses nothing to later bounces.
         _strength = detail::select(distribution.is_delta(), Real(0), s);
-        // The tables know one alpha; what they say of two is an estimate.
+        // Of two widths the tables know to one per cent, which is no promise.
         _preserves = detail::all<Real>(s == Real(1)) &&
                      detail::all<Real>(distribution.alpha_x() == distribution.alpha_y());
     }
@@ -70,7 +70,7 @@ public:
     {
         if (!_bound) return Color(Real(1));
         const Real mu = detail::saturate(wo.z);
-        const Real E = _tables.albedo(_axes, mu);
+        const Real E = _axes.albedo(_tables, {wo.x, wo.y, mu});
         const Real lost = (Real(1) - E) / detail::max(E, detail::constant<Real>(1e-12));
         return Color(Real(1)) + F_ms(mu) * (_strength * lost);
     }
@@ -90,7 +90,7 @@ public:
 
 private:
     MicrofacetTables _tables;
-    TableAxes<Real> _axes;
+    DirectionAxes<Real> _axes;
     Fresnel _fresnel;
     Real _strength;
     bool _bound = false, _preserves = false;

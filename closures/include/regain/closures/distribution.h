@@ -10,6 +10,7 @@
 ///     is_delta()               both widths at or below delta_alpha: the surface is flat
 ///     effective_alpha()        one width in place of two, for what is tabulated over one alpha
 ///     gamma(), tail()          tail parameter; its coordinate in [0, 1] along a table's third axis
+///     tail_length()            of slopes, where anisotropy.h knows it: 0 Beckmann's, 1 GGX's
 ///     cosine_axis              static: how tables of it run along the cosine; root if not there
 ///     table_width(alpha)       static, with a tail only: coordinate along a table's second axis
 ///     D(m), D(h, length2)      density of normals, per steradian, int D(m) m_z dm = 1; h = m |h|

@@ -21,6 +21,15 @@
 /// Fresnel term over all that is scattered once. It is taken at six cosines, when the closure is
 /// built, and interpolated; where F = 1 it is 1. c, k and m of Phi come from tables.
 ///
+/// An anisotropic surface loses more along some azimuths than along others, and Phi does not
+/// integrate to 1 over what depends on azimuth. So its loss is divided into M(mu), the lesser of
+/// those along its axes, which is common to all azimuths, and what is left, N(w); each makes a lobe
+/// that is symmetric and has the albedo it should have by itself:
+///
+///   f_ms(wo, wi) = M_o M_i / (pi <M>) P 2 pi Phi  +  N_o N_i / (pi <N>)
+///
+/// (each times t). A product of N and Phi could not be both reciprocal and right in energy.
+///
 /// The lobe and the added lobe make one closure, as in kulla_conty.h. The polar angle is sampled by
 /// missing_energy.h, the azimuth exactly.
 
@@ -107,8 +116,16 @@ public:
         const MicrofacetTables& t = tables;
         _bound = t.has_albedo() && t.has_moments() && t.has_later_bounces() && t.has_later_shape();
         if (!_bound) return;
-        const auto loss_at = [this](Real mu) { return loss(mu); };
-        _missing = MissingEnergy<Real>(_axes.alpha(), loss_at);
+        const auto loss_at = [this](Real mu) { return common_loss(mu); };
+        const auto rest_at = [this](Real mu) {
+            const Real common = common_loss(mu);
+            return _axes.azimuth_mean(mu, [&](const Vec3<Real>& w) { return rest(w, common); });
+        };
+        if (_axes.isotropic())
+            _missing = MissingEnergy<Real>(_axes.alpha(), loss_at);
+        else
+            _missing = MissingEnergy<Real>(_axes.alpha(),
+                                           [&](Real mu) { return common_loss(mu) + rest_at(mu); });
 
         const DirectionalGain<Fresnel> gain(distribution, fresnel, tables, Real(1));
         _tint = detail::ColorCurve<Real>(
@@ -129,6 +146,12 @@ public:
                 detail::max(detail::min(t.later_tilt(_axes), most / detail::max(product, tiny)),
                             -most / (far * far));
         }
+        if (!_axes.isotropic())
+        {
+            const Color rest =
+                _missing.average_of(rest_at, [this](Real mu) { return _tint.at(mu); });
+            for (int c = 0; c < 3; ++c) _inv_rest[c] = Real(1) / detail::max(rest[c], tiny);
+        }
         const Real k = t.later_spread(_axes);
         _azimuth = AzimuthSpread<Real>(k * k, detail::saturate(t.later_forward(_axes)));
     }
@@ -139,11 +162,18 @@ public:
     const Color& tilt() const { return _tilt; }
     const Color& mean_cosine() const { return _mean_cosine; }
 
-    /// 1 - E_ss at mu in [0, 1].
-    Real loss(Real mu) const
+    /// 1 - E_ss of a unit w, w.z in [0, 1].
+    Real loss(const Vec3<Real>& w) const
     {
         if (!_bound) return Real(0);
-        return detail::select(_black, Real(0), Real(1) - _tables.albedo(_axes, mu));
+        return detail::select(_black, Real(0), Real(1) - _axes.albedo(_tables, w));
+    }
+    /// M at mu in [0, 1]; where the lobe is isotropic, all of the loss.
+    Real common_loss(Real mu) const
+    {
+        if (_axes.isotropic()) return loss({Real(0), Real(0), mu});
+        const Real sine = detail::sqrt(detail::max((Real(1) - mu) * (Real(1) + mu), Real(0)));
+        return detail::min(loss({sine, Real(0), mu}), loss({Real(0), sine, mu}));
     }
 
     /// t at mu in [0, 1].
@@ -154,6 +184,7 @@ public:
         Traits t;
         t.reciprocal = true;
         t.exact_pdf = true;
+        t.anisotropic = !_axes.isotropic();
         t.random_numbers = random_numbers;
         return t;
     }
@@ -169,10 +200,19 @@ public:
               _wo(detail::normalised(
                   detail::select(_valid, wo, Vec3<Real>(Real(0), Real(0), Real(1))))),
               _polar(Polar::of(_wo)),
-              _loss(lobe.loss(_wo.z)),
+              _loss(lobe.common_loss(_wo.z)),
               _energy(lobe.tint(_wo.z) * _loss),
-              _weight(lobe._strength)
+              _weight(lobe._strength),
+              _spread(lobe._azimuth)
         {
+            if (!lobe._axes.isotropic())
+            {
+                const Real rest = lobe.rest(_wo, _loss), common = _loss;
+                _rest = lobe.tint(_wo.z) * rest;
+                _loss += rest;
+                _common = common / detail::max(_loss, detail::constant<Real>(1e-30));
+                _spread = lobe._azimuth.of_share(_common);
+            }
             _valid = detail::both<Real>(_valid, _loss > Real(0));
             _weight = detail::select(_valid, _weight, Color(Real(0)));
         }
@@ -197,7 +237,7 @@ public:
         {
             const Real mu = _lobe._missing.sample(detail::saturate(u.x));
             const Real sine = detail::sqrt((Real(1) - mu) * (Real(1) + mu));
-            const Real phi = _lobe._azimuth.about(_polar, {mu, sine}).sample(detail::saturate(u.y));
+            const Real phi = _spread.about(_polar, {mu, sine}).sample(detail::saturate(u.y));
             // Turned from straight ahead, which is any way for wo along the normal.
             const Mask upright = _polar.sine <= detail::constant<Real>(1e-12);
             const Real inv = Real(1) / detail::select(upright, Real(1), _polar.sine);
@@ -225,41 +265,45 @@ public:
             return detail::select(t.valid, density(t), Real(0));
         }
 
-        Albedo<Real> albedo() const { return {_weight * _energy, Color(Real(0))}; }
+        Albedo<Real> albedo() const { return {_weight * (_energy + _rest), Color(Real(0))}; }
 
     private:
         struct Terms
         {
             Mask valid;
-            Real mu;       // cos theta_i
+            Vec3<Real> wi;
             Real azimuth;  // 2 pi Phi
         };
         Terms terms(const Vec3<Real>& direction) const
         {
             Terms t;
             t.valid = detail::both<Real>(_valid, detail::is_above_horizon(direction));
-            const Vec3<Real> wi =
-                detail::select(t.valid, direction, Vec3<Real>(Real(0), Real(0), Real(1)));
-            t.mu = detail::min(wi.z, Real(1));
-            t.azimuth = _lobe._azimuth.about(_polar, Polar::of({wi.x, wi.y, t.mu}))
-                            .relative_density(AzimuthSpread<Real>::azimuth(_wo, wi));
+            t.wi = detail::select(t.valid, direction, Vec3<Real>(Real(0), Real(0), Real(1)));
+            t.wi.z = detail::min(t.wi.z, Real(1));
+            t.azimuth = _lobe._azimuth.about(_polar, Polar::of(t.wi))
+                            .relative_density(AzimuthSpread<Real>::azimuth(_wo, t.wi));
             return t;
         }
         // f cos theta_i.
         Color value(const Terms& t) const
         {
             const Color one(Real(1));
-            const Color energy =
-                _lobe.tint(t.mu) * (_lobe.loss(t.mu) * t.mu * t.azimuth *
-                                    detail::constant<Real>(0.318309886183790671538));
+            const Real mu = t.wi.z, inv_pi = detail::constant<Real>(0.318309886183790671538);
+            const Real loss = _lobe.common_loss(mu);
+            const Color tint = _lobe.tint(mu);
+            const Color energy = tint * (loss * mu * t.azimuth * inv_pi);
             const Color tilted = one + _lobe._tilt * (Color(_wo.z) - _lobe._mean_cosine) *
-                                           (Color(t.mu) - _lobe._mean_cosine);
-            return _weight * _energy * _lobe._inv_average * energy * tilted;
+                                           (Color(mu) - _lobe._mean_cosine);
+            const Color common = _weight * _energy * _lobe._inv_average * energy * tilted;
+            if (_lobe._axes.isotropic()) return common;
+            return common + _weight * _rest * _lobe._inv_rest * tint *
+                                (_lobe.rest(t.wi, loss) * mu * inv_pi);
         }
         // Per steradian.
         Real density(const Terms& t) const
         {
-            return _lobe._missing.density(t.mu) * t.azimuth *
+            const Real azimuth = Real(1) - _common + _common * t.azimuth;
+            return _lobe._missing.density(t.wi.z) * azimuth *
                    detail::constant<Real>(0.159154943091895335769);
         }
 
@@ -268,14 +312,23 @@ public:
         Vec3<Real> _wo;
         Polar _polar;
         Real _loss;
-        Color _energy, _weight;  // A(mu_o); strength and what scale_by was given
+        Color _energy, _weight;        // A(mu_o) or M_o t; strength and what scale_by was given
+        Color _rest = Color(Real(0));  // N_o t
+        Real _common = Real(1);        // share of M_o in the loss
+        AzimuthSpread<Real> _spread;
     };
 
     Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
 
 private:
+    // N of w, M being common to its cosine.
+    Real rest(const Vec3<Real>& w, Real common) const
+    {
+        return detail::max(loss(w) - common, Real(0));
+    }
+
     MicrofacetTables _tables;
-    TableAxes<Real> _axes;
+    DirectionAxes<Real> _axes;
     Mask _black;
     bool _bound;
     Real _strength;
@@ -283,6 +336,7 @@ private:
     MissingEnergy<Real> _missing;
     AzimuthSpread<Real> _azimuth;
     Color _mean_cosine, _inv_average, _tilt;
+    Color _inv_rest = Color(Real(0));
 };
 
 /// A MicrofacetReflection and its tail.
@@ -304,7 +358,7 @@ public:
           _F_ss(lobe.fresnel().average())
     {
         const auto& distribution = lobe.distribution();
-        // The tables know one alpha; what they say of two is an estimate.
+        // Of two widths the tables know to one per cent, which is no promise.
         _preserves = _mixture.second().bound() &&
                      detail::all<Real>(detail::saturate(strength) == Real(1)) &&
                      detail::all<Real>(distribution.alpha_x() == distribution.alpha_y());

@@ -50,6 +50,9 @@ public:
     {}
     explicit GGX(Real alpha) : GGX(alpha, alpha) {}
 
+    /// Of slopes: see anisotropy.h.
+    Real tail_length() const { return Real(1); }
+
     /// D of the normal m along h, which need not be unit: length2 = h.h. Per steradian.
     Real D(const Vec3<Real>& h, Real length2) const
     {

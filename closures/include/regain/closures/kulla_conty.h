@@ -13,15 +13,18 @@
 ///   kulla-conty          F_ms = F_ss E_avg / (1 - F_ss (1 - E_avg))      Turquin 2019, Eq. 7
 ///   kulla-conty-series   F_ms = F_ss^2 E_avg / (1 - F_ss (1 - E_avg))    the series corrected
 ///
+/// E_avg is the mean over all wi, of an anisotropic lobe over azimuths, too: its E_ss depends on
+/// them, see anisotropy.h.
+///
 /// The printed series gives its first term, light of the second bounce, one factor of F_ss; but it
 /// has met two facets. (Hill 2018 found the same.)
 ///
 /// The lobe and the added lobe make one closure: hosts see one eval, one pdf and weights that are
 /// their quotient. The added lobe is sampled by missing_energy.h.
 ///
-/// Building one asks the table of E_ss 28 times; it is meant to be built once per material, or once
-/// per shading point where alpha is textured. Per shading point and per direction the cost is one
-/// look-up.
+/// Building one asks the table of E_ss 28 times, an anisotropic one 168 times; it is meant to be
+/// built once per material, or once per shading point where alpha is textured. Per shading point
+/// and per direction the cost is one look-up.
 
 #pragma once
 
@@ -67,7 +70,8 @@ Color3<Real> kulla_conty_tint(KullaContyForm form, const Color3<Real>& F_ss, Rea
     });
 }
 
-/// The added lobe alone: azimuthally symmetric, black for a mirror and without a table.
+/// The added lobe alone: black for a mirror and without a table. Of an isotropic surface it is
+/// symmetric about the normal.
 template <class RealType>
 class MissingEnergyLobe : public Shorthands<MissingEnergyLobe<RealType>, RealType>
 {
@@ -87,7 +91,9 @@ public:
           _tint(Real(1))
     {
         if (_bound)
-            _missing = MissingEnergy<Real>(_axes.alpha(), [this](Real mu) { return loss(mu); });
+            _missing = MissingEnergy<Real>(_axes.alpha(), [this](Real mu) {
+                return _axes.azimuth_mean(mu, [this](const Vec3<Real>& w) { return loss(w); });
+            });
     }
 
     bool bound() const { return _bound; }
@@ -97,11 +103,11 @@ public:
     const Color& tint() const { return _tint; }
     void set_tint(const Color& tint) { _tint = tint; }
 
-    /// 1 - E_ss at mu in [0, 1].
-    Real loss(Real mu) const
+    /// 1 - E_ss of a unit w, w.z in [0, 1].
+    Real loss(const Vec3<Real>& w) const
     {
         if (!_bound) return Real(0);
-        return detail::select(_black, Real(0), Real(1) - _tables.albedo(_axes, mu));
+        return detail::select(_black, Real(0), Real(1) - _axes.albedo(_tables, w));
     }
 
     Traits traits() const
@@ -109,6 +115,7 @@ public:
         Traits t;
         t.reciprocal = true;
         t.exact_pdf = true;
+        t.anisotropic = !_axes.isotropic();
         t.random_numbers = random_numbers;
         return t;
     }
@@ -120,7 +127,7 @@ public:
             : _lobe(lobe),
               _valid(detail::is_above_horizon(wo)),
               _wo(detail::select(_valid, wo, Vec3<Real>(Real(0), Real(0), Real(1)))),
-              _loss(lobe.loss(detail::min(_wo.z, Real(1)))),
+              _loss(lobe.loss({_wo.x, _wo.y, detail::min(_wo.z, Real(1))})),
               _scale(_loss * detail::constant<Real>(0.318309886183790671538) /
                      detail::max(lobe._missing.average(), detail::constant<Real>(1e-30))),
               _weight(lobe._tint)
@@ -147,6 +154,7 @@ public:
         }
         Sample<Real> sample(const Vec3<Real>& u) const
         {
+            // By the mean over azimuths, and any azimuth.
             const Real mu = _lobe._missing.sample(detail::saturate(u.x));
             const Real sine = detail::sqrt((Real(1) - mu) * (Real(1) + mu));
             const Real phi = detail::constant<Real>(6.28318530717958647692) * detail::saturate(u.y);
@@ -174,19 +182,22 @@ public:
         struct Terms
         {
             Mask valid;
-            Real mu;  // cos theta_i
+            Vec3<Real> wi;
         };
         Terms terms(const Vec3<Real>& wi) const
         {
-            const Mask valid = detail::both<Real>(_valid, detail::is_above_horizon(wi));
-            return {valid, detail::min(detail::select(valid, wi.z, Real(1)), Real(1))};
+            Terms t;
+            t.valid = detail::both<Real>(_valid, detail::is_above_horizon(wi));
+            t.wi = detail::select(t.valid, wi, Vec3<Real>(Real(0), Real(0), Real(1)));
+            t.wi.z = detail::min(t.wi.z, Real(1));
+            return t;
         }
         // f cos theta_i of a white lobe.
-        Real value(const Terms& t) const { return _scale * _lobe.loss(t.mu) * t.mu; }
+        Real value(const Terms& t) const { return _scale * _lobe.loss(t.wi) * t.wi.z; }
         // Per steradian. It takes a logarithm, so eval is spared it.
         Real density(const Terms& t) const
         {
-            return _lobe._missing.density(t.mu) * detail::constant<Real>(0.159154943091895335769);
+            return _lobe._missing.density(t.wi.z) * detail::constant<Real>(0.159154943091895335769);
         }
 
         MissingEnergyLobe _lobe;
@@ -200,7 +211,7 @@ public:
 
 private:
     MicrofacetTables _tables;
-    TableAxes<Real> _axes;
+    DirectionAxes<Real> _axes;
     Mask _black;
     bool _bound;
     Color _tint;
@@ -226,7 +237,7 @@ public:
           _F_ss(lobe.fresnel().average())
     {
         const auto& distribution = lobe.distribution();
-        // The tables know one alpha; what they say of two is an estimate.
+        // Of two widths the tables know to one per cent, which is no promise.
         _preserves = _mixture.second().bound() &&
                      detail::all<Real>(detail::saturate(strength) == Real(1)) &&
                      detail::all<Real>(distribution.alpha_x() == distribution.alpha_y());

@@ -22,8 +22,8 @@
 
 #pragma once
 
+#include <regain/closures/anisotropy.h>
 #include <regain/closures/gain.h>
-#include <regain/closures/table.h>
 
 #include <optional>
 #include <string_view>
@@ -85,7 +85,7 @@ public:
         // A mirror loses nothing to later bounces.
         _F_ms = F_ms(method, lobe.fresnel(), E_avg) *
                 detail::select(distribution.is_delta(), Real(0), s);
-        // The tables know one alpha; what they say of two is an estimate.
+        // Of two widths the tables know to one per cent, which is no promise.
         _preserves = detail::all<Real>(s == Real(1)) &&
                      detail::all<Real>(distribution.alpha_x() == distribution.alpha_y());
     }
@@ -93,7 +93,7 @@ public:
     Color at(const Vec3<Real>& wo) const
     {
         if (!_bound) return Color(Real(1));
-        const Real E = _tables.albedo(_axes, detail::saturate(wo.z));
+        const Real E = _axes.albedo(_tables, {wo.x, wo.y, detail::saturate(wo.z)});
         return Color(Real(1)) + _F_ms * ((Real(1) - E) / detail::max(E, least_albedo()));
     }
 
@@ -137,7 +137,7 @@ private:
     static Real least_albedo() { return detail::constant<Real>(1e-12); }
 
     MicrofacetTables _tables;
-    TableAxes<Real> _axes;
+    DirectionAxes<Real> _axes;
     Color _F_ms = Color(Real(0));
     bool _bound = false, _preserves = false;
 };

@@ -16,10 +16,10 @@
 
 #pragma once
 
+#include <regain/closures/anisotropy.h>
 #include <regain/closures/closure.h>
 #include <regain/closures/fresnel_moments.h>
 #include <regain/closures/refraction.h>
-#include <regain/closures/table.h>
 
 #include <utility>
 
@@ -159,9 +159,9 @@ public:
         Color tabulated_albedo() const
         {
             const MicrofacetTables& tables = _lobe._tables;
-            const TableAxes<Real> axes(_lobe._distribution);
+            const DirectionAxes<Real> axes(_lobe._distribution);
             const Real mu = _wo.z;
-            const Real E = detail::select(_delta, Real(1), tables.albedo(axes, mu));
+            const Real E = detail::select(_delta, Real(1), axes.albedo(tables, _wo));
             const Color F = detail::select(_delta, _lobe._fresnel.at(mu),
                                            _lobe._fresnel.mean(tables.moments(axes, mu)));
             return F * _weight * E;

@@ -79,6 +79,8 @@ public:
     /// Tail parameter, and its coordinate along the third axis of tables.
     Real gamma() const { return _gamma; }
     Real tail() const { return std_tail(_gamma); }
+    /// Of slopes: 1 is GGX's, 0 Beckmann's. See anisotropy.h.
+    Real tail_length() const { return _inv_p; }
     /// Coordinate of a width along the second axis.
     static Real table_width(Real alpha) { return std_width(alpha); }
 

@@ -141,12 +141,22 @@ public:
     explicit TableAxes(const Distribution& distribution)
         : _alpha(distribution.effective_alpha()),
           _width(detail::table_width_of<Distribution>(_alpha)),
+          _width_of(&detail::table_width_of<Distribution>),
           _tail(detail::tail_of(distribution)),
           _has_tail(Distribution::has_tail),
           _cosine(detail::CosineAxisOf<Distribution>::value)
     {}
 
     Real alpha() const { return _alpha; }
+
+    /// The same of another width, in (0, 1].
+    TableAxes of_alpha(Real alpha) const
+    {
+        TableAxes other = *this;
+        other._alpha = alpha;
+        other._width = _width_of(alpha);
+        return other;
+    }
 
     /// mu in [0, 1].
     Real directional(const TableView& table, Real mu) const
@@ -168,7 +178,9 @@ public:
     }
 
 private:
-    Real _alpha, _width, _tail;
+    Real _alpha, _width;
+    Real (*_width_of)(Real);  // the second coordinate of a width
+    Real _tail;
     bool _has_tail;
     CosineAxis _cosine;
 };

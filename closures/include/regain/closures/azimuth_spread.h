@@ -37,9 +37,6 @@ public:
     /// k and m as above, k >= 0 in rad^2 and m in [0, 1].
     AzimuthSpread(Real k, Real m) : _k(k), _m(m) {}
 
-    /// This one for a share in [0, 1] of the light, the rest of which goes anywhere.
-    AzimuthSpread of_share(Real share) const { return {_k, _m * share}; }
-
     /// A direction by its cosine and sine.
     struct Polar
     {

@@ -150,7 +150,12 @@ public:
         {
             const Color rest =
                 _missing.average_of(rest_at, [this](Real mu) { return _tint.at(mu); });
-            for (int c = 0; c < 3; ++c) _inv_rest[c] = Real(1) / detail::max(rest[c], tiny);
+            // Where next to nothing is left, a part of it that no node has seen may be found later.
+            for (int c = 0; c < 3; ++c)
+                _inv_rest[c] =
+                    Real(1) /
+                    detail::max(rest[c],
+                                detail::max(average[c] * detail::constant<Real>(1e-4), tiny));
         }
         const Real k = t.later_spread(_axes);
         _azimuth = AzimuthSpread<Real>(k * k, detail::saturate(t.later_forward(_axes)));
@@ -202,8 +207,7 @@ public:
               _polar(Polar::of(_wo)),
               _loss(lobe.common_loss(_wo.z)),
               _energy(lobe.tint(_wo.z) * _loss),
-              _weight(lobe._strength),
-              _spread(lobe._azimuth)
+              _weight(lobe._strength)
         {
             if (!lobe._axes.isotropic())
             {
@@ -211,7 +215,6 @@ public:
                 _rest = lobe.tint(_wo.z) * rest;
                 _loss += rest;
                 _common = common / detail::max(_loss, detail::constant<Real>(1e-30));
-                _spread = lobe._azimuth.of_share(_common);
             }
             _valid = detail::both<Real>(_valid, _loss > Real(0));
             _weight = detail::select(_valid, _weight, Color(Real(0)));
@@ -237,14 +240,7 @@ public:
         {
             const Real mu = _lobe._missing.sample(detail::saturate(u.x));
             const Real sine = detail::sqrt((Real(1) - mu) * (Real(1) + mu));
-            const Real phi = _spread.about(_polar, {mu, sine}).sample(detail::saturate(u.y));
-            // Turned from straight ahead, which is any way for wo along the normal.
-            const Mask upright = _polar.sine <= detail::constant<Real>(1e-12);
-            const Real inv = Real(1) / detail::select(upright, Real(1), _polar.sine);
-            const Real x = detail::select(upright, Real(1), -_wo.x * inv),
-                       y = detail::select(upright, Real(0), -_wo.y * inv);
-            const Real c = detail::cos(phi), s = detail::sin(phi);
-            const Vec3<Real> wi(sine * (x * c - y * s), sine * (y * c + x * s), mu);
+            const Vec3<Real> wi = some_azimuth(mu, sine, detail::saturate(u.y));
             const Terms t = terms(wi);
 
             const Real pdf = density(t);
@@ -284,6 +280,28 @@ public:
                             .relative_density(AzimuthSpread<Real>::azimuth(_wo, t.wi));
             return t;
         }
+        // wi of a polar angle, by Phi or, for the share of N, by azimuth_skew.h.
+        Vec3<Real> some_azimuth(const Real& mu, const Real& sine, const Real& u) const
+        {
+            if (_lobe._axes.isotropic()) return some_way_ahead(mu, sine, u);
+            const Real tiny = detail::constant<Real>(1e-30);
+            const Mask common = u <= _common;
+            const Real share = u / detail::max(_common, tiny),
+                       rest = (u - _common) / detail::max(Real(1) - _common, tiny);
+            return detail::select(common, some_way_ahead(mu, sine, detail::min(share, Real(1))),
+                                  _lobe._axes.azimuths().sample(mu, detail::saturate(rest)));
+        }
+        Vec3<Real> some_way_ahead(const Real& mu, const Real& sine, const Real& u) const
+        {
+            const Real phi = _lobe._azimuth.about(_polar, {mu, sine}).sample(u);
+            // Turned from straight ahead, which is any way for wo along the normal.
+            const Mask upright = _polar.sine <= detail::constant<Real>(1e-12);
+            const Real inv = Real(1) / detail::select(upright, Real(1), _polar.sine);
+            const Real x = detail::select(upright, Real(1), -_wo.x * inv),
+                       y = detail::select(upright, Real(0), -_wo.y * inv);
+            const Real c = detail::cos(phi), s = detail::sin(phi);
+            return {sine * (x * c - y * s), sine * (y * c + x * s), mu};
+        }
         // f cos theta_i.
         Color value(const Terms& t) const
         {
@@ -302,7 +320,10 @@ public:
         // Per steradian.
         Real density(const Terms& t) const
         {
-            const Real azimuth = Real(1) - _common + _common * t.azimuth;
+            Real azimuth = t.azimuth;
+            if (!_lobe._axes.isotropic())
+                azimuth = _common * azimuth +
+                          (Real(1) - _common) * _lobe._axes.azimuths().relative_density(t.wi);
             return _lobe._missing.density(t.wi.z) * azimuth *
                    detail::constant<Real>(0.159154943091895335769);
         }
@@ -315,7 +336,6 @@ public:
         Color _energy, _weight;        // A(mu_o) or M_o t; strength and what scale_by was given
         Color _rest = Color(Real(0));  // N_o t
         Real _common = Real(1);        // share of M_o in the loss
-        AzimuthSpread<Real> _spread;
     };
 
     Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }

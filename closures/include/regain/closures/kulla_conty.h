@@ -154,11 +154,8 @@ public:
         }
         Sample<Real> sample(const Vec3<Real>& u) const
         {
-            // By the mean over azimuths, and any azimuth.
             const Real mu = _lobe._missing.sample(detail::saturate(u.x));
-            const Real sine = detail::sqrt((Real(1) - mu) * (Real(1) + mu));
-            const Real phi = detail::constant<Real>(6.28318530717958647692) * detail::saturate(u.y);
-            const Vec3<Real> wi(sine * detail::cos(phi), sine * detail::sin(phi), mu);
+            const Vec3<Real> wi = at_some_azimuth(mu, detail::saturate(u.y));
             const Terms t = terms(wi);
 
             Sample<Real> s;
@@ -197,7 +194,17 @@ public:
         // Per steradian. It takes a logarithm, so eval is spared it.
         Real density(const Terms& t) const
         {
-            return _lobe._missing.density(t.wi.z) * detail::constant<Real>(0.159154943091895335769);
+            const Real even =
+                _lobe._missing.density(t.wi.z) * detail::constant<Real>(0.159154943091895335769);
+            if (_lobe._axes.isotropic()) return even;
+            return even * _lobe._axes.azimuths().relative_density(t.wi);
+        }
+        Vec3<Real> at_some_azimuth(const Real& mu, const Real& u) const
+        {
+            if (!_lobe._axes.isotropic()) return _lobe._axes.azimuths().sample(mu, u);
+            const Real sine = detail::sqrt((Real(1) - mu) * (Real(1) + mu));
+            const Real phi = detail::constant<Real>(6.28318530717958647692) * u;
+            return {sine * detail::cos(phi), sine * detail::sin(phi), mu};
         }
 
         MissingEnergyLobe _lobe;

@@ -9,6 +9,7 @@
 #include "../support/reflection_integral.h"
 
 #include <regain/closures/beckmann.h>
+#include <regain/closures/dielectric_kulla_conty.h>
 #include <regain/closures/directional_gain.h>
 #include <regain/closures/fitted_tail.h>
 #include <regain/closures/gtr.h>
@@ -314,6 +315,58 @@ TEST(AnisotropicEnergy, added_lobes_are_reciprocal)
         expect_reciprocal(fitted_tail(lobe, tables));
         expect_reciprocal(fitted_tail(lobe, tables).added_lobe());
     }
+}
+
+// Of glass the width is only nearer to right, but what the added lobes are is exact: reciprocal
+// with eta squared, and of the albedo they say.
+TEST(AnisotropicEnergy, added_lobes_of_glass_are_reciprocal_and_sum_up)
+{
+    const DielectricTables tables =
+        luts::dielectric_tables("ggx", TransmissionShadowing::correlated);
+    const double eta = 1.3;
+    const Dielectric<GGX<double>> lobe(GGX<double>(0.8, 0.2), eta);
+    const auto added = kulla_conty(lobe, tables).added_lobe();
+    Random random(23);
+    for (int i = 0; i < 1000; ++i)
+    {
+        auto a = direction<double>(0.01 + 0.99 * random.unit(), 2 * pi * random.unit()),
+             b = direction<double>(0.01 + 0.99 * random.unit(), 2 * pi * random.unit());
+        const double forth = added.eval(a, b).x / b.z, back = added.eval(b, a).x / a.z;
+        EXPECT_NEAR(forth, back, 1e-9 * forth);
+        b.z = -b.z;
+        const double down = added.eval(a, b).x / -b.z, up = added.eval(b, a).x / a.z;
+        EXPECT_NEAR(down, eta * eta * up, 1e-9 * down);
+    }
+    for (const double side : {1.0, -1.0})
+        for (const double azimuth : {0.0, 0.8, 1.5})
+        {
+            auto wo = direction<double>(0.3, azimuth);
+            wo.z *= side;
+            const auto prepared = added.prepare(wo);
+            const double sum = over_hemisphere(wo, [&](const Vec3<double>& wi) {
+                return prepared.eval(wi).x + prepared.eval({wi.x, wi.y, -wi.z}).x;
+            });
+            const auto albedo = prepared.albedo();
+            EXPECT_NEAR(sum, albedo.reflect.x + albedo.transmit.x, 4e-3);
+            EXPECT_NEAR(sum, prepared.loss(), 4e-3);
+        }
+}
+
+// Isotropic glass is asked about its width, bit for bit; near index 1 what counts is the width
+// towards w.
+TEST(AnisotropicEnergy, width_of_glass)
+{
+    const DielectricTables none;
+    const GGX<float> same(0.3f, 0.3f);
+    const GGX<double> two(0.4, 0.1);
+    for (const double azimuth : turns)
+    {
+        EXPECT_EQ(none.width(same, 1.5f, direction<float>(0.3, azimuth)), 0.3f);
+        const auto w = direction<double>(1e-4, azimuth);
+        EXPECT_NEAR(none.width(two, 1.0, w), std::hypot(0.4 * w.x, 0.1 * w.y), 1e-3);
+        EXPECT_NEAR(none.width(two, 100.0, w), two.effective_alpha(), 1e-3);
+    }
+    EXPECT_NEAR(none.width(two, 1.0, direction<double>(1)), two.effective_alpha(), 1e-12);
 }
 
 // A mirrored direction or exchanged axes are the same lobe; a direction seen from a little farther

@@ -134,6 +134,11 @@ public:
         _d = (_x - _y) * (_x + _y) / (_x * _x + _y * _y);
     }
 
+    Real alpha_x() const { return _x; }
+    Real alpha_y() const { return _y; }
+    /// R.
+    Real effective_alpha() const { return this->alpha(); }
+
     /// The widths are the same: a direction is known by its cosine.
     bool isotropic() const { return _isotropic; }
 

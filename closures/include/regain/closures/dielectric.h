@@ -194,8 +194,8 @@ public:
                 return {reflects() ? alone(ScatterMode::R).reflect : Color(Real(0)),
                         transmits() ? alone(ScatterMode::T).transmit : Color(Real(0))};
 
-            const Real alpha = _lobe._distribution.effective_alpha();
             const Real eta = _fresnel.relative_index().eta, mu = detail::min(_wo.z, Real(1));
+            const Real alpha = _lobe._tables.width(_lobe._distribution, eta, _wo);
             const auto F = _fresnel.split(mu);
             const Real E = _lobe._tables.albedo(alpha, eta, mu);
             const Real share = _lobe._tables.reflected_share(alpha, eta, mu);

@@ -31,6 +31,7 @@
 
 #pragma once
 
+#include <regain/closures/anisotropy.h>
 #include <regain/closures/dielectric.h>
 #include <regain/closures/missing_energy.h>
 #include <regain/closures/sum.h>
@@ -40,7 +41,8 @@ REGAIN_NAMESPACE_BEGIN
 /// How what is missing is split between reflection and transmission; see above.
 enum class KullaContySplit { kulla_conty, greatest };
 
-/// The added lobes alone: azimuthally symmetric, black for a flat surface and without tables.
+/// The added lobes alone: black for a flat surface and without tables. Of an isotropic surface they
+/// are symmetric about the normal; the averages of another are over azimuths, too.
 template <class DielectricType>
 class DielectricMissingEnergyLobe
     : public Shorthands<DielectricMissingEnergyLobe<DielectricType>, typename DielectricType::Real>
@@ -57,7 +59,7 @@ public:
     DielectricMissingEnergyLobe(const Dielectric& lobe, const DielectricTables& tables,
                                 Real strength, KullaContySplit split)
         : _tables(tables),
-          _alpha(lobe.distribution().effective_alpha()),
+          _axes(lobe.distribution()),
           _black(lobe.distribution().is_delta()),
           _bound(tables)
     {
@@ -70,7 +72,11 @@ public:
             const Real critical = detail::sqrt(detail::max(-index[o].square_minus_one(), Real(0)));
             if (_bound)
                 _missing[o] = Missing(
-                    _alpha, [this, o](Real mu) { return loss(_eta[o], mu); },
+                    _axes.alpha(),
+                    [this, o](Real mu) {
+                        return _axes.azimuth_mean(
+                            mu, [&](const Vec3<Real>& w) { return loss(_eta[o], w, mu); });
+                    },
                     detail::min(critical, detail::constant<Real>(0.9999)));
         }
 
@@ -106,6 +112,7 @@ public:
         Traits t;
         t.reciprocal = true;
         t.exact_pdf = true;
+        t.anisotropic = !_axes.isotropic();
         t.transmissive = detail::any<Real>(total(_transmission) > Real(0));
         t.random_numbers = random_numbers;
         return t;
@@ -119,7 +126,7 @@ public:
               _valid(detail::is_off_horizon(wo)),
               _wo(detail::select(_valid, wo, Vec3<Real>(Real(0), Real(0), Real(1)))),
               _below(_wo.z < Real(0)),
-              _loss(lobe.loss(detail::select(_below, lobe._eta[1], lobe._eta[0]),
+              _loss(lobe.loss(detail::select(_below, lobe._eta[1], lobe._eta[0]), _wo,
                               detail::min(detail::abs(_wo.z), Real(1))))
         {
             _valid = detail::both<Real>(_valid, _loss > Real(0));
@@ -189,6 +196,7 @@ public:
         struct Terms
         {
             Mask valid;
+            Vec3<Real> wi;
             Mask below;      // wi is
             Mask reflected;  // or else transmitted
             Real mu;         // |cos theta_i|
@@ -197,7 +205,8 @@ public:
         {
             Terms t;
             const Mask possible = detail::both<Real>(_valid, detail::is_off_horizon(direction));
-            const Real z = detail::select(possible, direction.z, Real(1));
+            t.wi = detail::select(possible, direction, Vec3<Real>(Real(0), Real(0), Real(1)));
+            const Real z = t.wi.z;
             t.below = z < Real(0);
             t.reflected = !differ(t.below, _below);
             t.mu = detail::min(detail::abs(z), Real(1));
@@ -214,7 +223,7 @@ public:
             const Real scale =
                 detail::select(t.below, _lobe._inv_average[1], _lobe._inv_average[0]);
             return detail::select(t.reflected, _reflection, _transmission) *
-                   (_loss * scale * _lobe.loss(eta, t.mu) * t.mu);
+                   (_loss * scale * _lobe.loss(eta, t.wi, t.mu) * t.mu);
         }
         // Per steradian.
         Real density(const Terms& t) const
@@ -248,15 +257,17 @@ private:
 
     static Real total(const Color& c) { return c.x + c.y + c.z; }
 
-    // 1 - E^S at mu in [0, 1], seen from where eta is the index ahead over the index behind.
-    Real loss(Real eta, Real mu) const
+    // 1 - E^S of w, mu = |w.z| in [0, 1], seen from where eta is the index ahead over the one
+    // behind.
+    Real loss(Real eta, const Vec3<Real>& w, Real mu) const
     {
         if (!_bound) return Real(0);
-        return detail::select(_black, Real(0), Real(1) - _tables.albedo(_alpha, eta, mu));
+        return detail::select(_black, Real(0),
+                              Real(1) - _tables.albedo(_tables.width(_axes, eta, w), eta, mu));
     }
 
     DielectricTables _tables;
-    Real _alpha;
+    DirectionAxes<Real> _axes;
     Mask _black;
     bool _bound;
     Real _eta[2], _inv_average[2], _passed[2];  // by side of wo: above, below
@@ -290,7 +301,7 @@ public:
                      (transmits ? total(lobe.transmission_tint()) * (Real(1) - F) : Real(0));
 
         const auto& distribution = lobe.distribution();
-        // The tables know one alpha; what they say of two is an estimate.
+        // The tables know one width; what they say of two is an estimate.
         _preserves = _mixture.second().bound() && reflects && transmits &&
                      detail::all<Real>(detail::saturate(strength) == Real(1)) &&
                      detail::all<Real>(distribution.alpha_x() == distribution.alpha_y());

@@ -37,6 +37,16 @@
 /// where alpha is larger than the cosine that Fresnel's term turns at, it has no part in the share.
 /// E^S in the beta form falls to nothing at grazing angles, and so
 /// is tabulated as a logarithm.
+///
+/// Of an anisotropic interface the tables are asked about one width, of its direction w:
+///
+///   a^2 = R^2 + b ((ax w.x)^2 + (ay w.y)^2 - R^2 (w.x^2 + w.y^2)),   R^2 = (ax^2 + ay^2) / 2
+///
+/// Near index 1 light goes straight on, and all masking is that of the width towards w: b = 1. What
+/// is reflected, or bent far, leaves at all azimuths: b = exp(-8 r), r = |eta_o - 1| / (eta_o + 1),
+/// and into the denser side, in the beta form, where what is transmitted is masked most,
+/// b = 1 - 1.2 r, 0 at least. The cosine stays that of w, for so does the critical one. Errors are
+/// in docs/methods.md: this is a help, not a solution.
 
 #pragma once
 
@@ -119,6 +129,24 @@ struct DielectricTables
     bool tail = false;         ///< x is that of distributions with a tail
 
     explicit operator bool() const { return E[0] && E[1] && R[0] && R[1]; }
+
+    /// a above of a unit w and of `widths`, a distribution or its axes; eta_o > 0.
+    template <class Widths, class Real>
+    Real width(const Widths& widths, Real eta_o, const Vec3<Real>& w) const
+    {
+        const Real x = widths.alpha_x(), y = widths.alpha_y(), mean = widths.effective_alpha();
+        const MaskOf<Real> same = x == y;
+        if (detail::all<Real>(same)) return mean;
+        const Real X = x * w.x, Y = y * w.y, s2 = w.x * w.x + w.y * w.y;
+        const Real r = detail::abs(eta_o - Real(1)) / (eta_o + Real(1));
+        Real b = detail::exp(Real(-8) * r);
+        if (near_index)
+            b = detail::select(eta_o >= Real(1),
+                               detail::max(Real(1) - detail::constant<Real>(1.2) * r, Real(0)), b);
+        const Real a = detail::sqrt(
+            detail::max(mean * mean + b * (X * X + Y * Y - mean * mean * s2), Real(0)));
+        return detail::select(same, mean, detail::min(detail::max(a, detail::min(x, y)), Real(1)));
+    }
 
     /// E^S at the cosine mu = |wo.z| in [0, 1], at most 1. alpha in (0, 1], eta_o > 0.
     template <class Real>

@@ -3,7 +3,7 @@
 
 /// @file
 /// Anisotropic lobes in the tables of isotropic ones. What a lobe of widths ax and ay scatters once
-/// of a direction w is, within one per cent, what an isotropic one does of width a seen from mu':
+/// of a direction w is, to one per cent, what an isotropic one does of width a seen from mu':
 ///
 ///   E_ss(w; ax, ay) = E_ss(mu'; a)
 ///   mu' = a w.z / sqrt(a^2 w.z^2 + X^2 + Y^2),    X = ax w.x,  Y = ay w.y
@@ -20,12 +20,11 @@
 ///   g = 1 - R w.z / sqrt(R^2 w.z^2 + X^2 + Y^2)
 ///
 /// and each c is a polynomial R (k_1 + k_2 R + k_3 R^2). D says whether w comes along the wider
-/// axis
-/// (-1) or the narrower (1) as the stretched surface sees it; it means nothing along the normal,
-/// where g is 0. The form was found, and its numbers were fitted, on quadrature of 29,000 lobes and
-/// directions a distribution (docs/methods.md): ratios up to 20, alpha up to 1, any azimuth, mu
-/// from 3e-3. Where ax = ay it is w.z and the width themselves, exchanging the axes changes
-/// nothing, and it is smooth in all directions and widths.
+/// axis or the narrower, -d to d, as the stretched surface sees it; it means nothing along the
+/// normal, where g is 0. The form was found, and its numbers were fitted, on quadrature of 29,000
+/// lobes and directions a distribution (docs/methods.md): ratios up to 20, alpha up to 1, any
+/// azimuth, mu from 3e-3. Where ax = ay it is w.z and the width themselves, exchanging the axes
+/// changes nothing, and it is smooth in all directions and widths.
 ///
 /// The numbers depend on how long the tail of the distribution is, tail_length() in distribution.h:
 /// 0 of Beckmann, 1 of GGX, 1 / (gamma - 1) of STD, which lies between these and beyond. GTR is no

@@ -98,12 +98,13 @@ private:
     {
         if (!_bound) return {};
         const Real mu = detail::saturate(w.z);
-        return {_axes.directional(_balance, mu), _tint.F_ms(mu) * _half_strength};
+        const auto place = _axes.place({w.x, w.y, mu});
+        return {place.axes.directional(_balance, place.mu), _tint.F_ms(mu) * _half_strength};
     }
 
     DirectionalGain<Fresnel> _tint;
     TableView _balance;
-    TableAxes<Real> _axes;
+    DirectionAxes<Real> _axes;
     Real _half_strength;
     bool _bound = false;
 };

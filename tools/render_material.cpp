@@ -30,11 +30,14 @@ static_assert(int(ScatterMode::R) == 0 && int(ScatterMode::T) == 1 && int(Scatte
 constexpr const char* shadowing_names[] = {"correlated", "beta"};
 static_assert(int(TransmissionShadowing::correlated) == 0 && int(TransmissionShadowing::beta) == 1);
 
-std::vector<Compensation> methods_of(const std::string& wanted, bool is_sheen)
+std::vector<Compensation> methods_of(const std::string& wanted, const Compensation& recommended)
 {
     if (wanted.empty())
-        return is_sheen ? std::vector<Compensation>{Method::none}
-                        : std::vector<Compensation>{Method::none, Method::turquin};
+    {
+        const auto* gain = std::get_if<Method>(&recommended);
+        if (gain && *gain == Method::none) return {recommended};
+        return {Method::none, recommended};
+    }
     if (const auto method = shaders::compensation_named(wanted)) return {*method};
     refuse("--method", wanted,
            fmt::format("no such method; there are {}",
@@ -55,7 +58,9 @@ RenderMaterial::RenderMaterial(const RenderOptions& options, const shaders::Colo
     enum class Kind { metal, glass, sheen };
     const auto kind = chosen<Kind>("--material", options.material, "material", names);
     check_belongings(options);
-    _methods = methods_of(options.method, kind == Kind::sheen);
+    if (kind == Kind::sheen) _material.surface = SheenSurface{};
+    if (kind == Kind::glass) _material.surface = InterfaceSurface{};
+    _methods = methods_of(options.method, shaders::recommended_compensation(_material.surface));
     if (kind == Kind::sheen)
         read_sheen(options);
     else

@@ -80,6 +80,14 @@ const std::vector<std::string_view>& compensation_names()
     return names;
 }
 
+Compensation recommended_compensation(
+    const std::variant<SchlickSurface, ConductorSurface, InterfaceSurface, SheenSurface>& surface)
+{
+    if (std::holds_alternative<SheenSurface>(surface)) return Method::none;
+    if (std::holds_alternative<InterfaceSurface>(surface)) return Method::turquin;
+    return Directional{};
+}
+
 MicrofacetMaterial::MicrofacetMaterial(const SchlickMetal& metal)
     : surface(SchlickSurface{ColorD(metal.F0), ColorD(metal.F82)}),
       alpha_x(static_cast<double>(metal.alpha_x)),

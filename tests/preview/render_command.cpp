@@ -43,7 +43,7 @@ TEST_F(RenderCommand, WritesPicturesAndSaysHow)
     EXPECT_EQ(exr->spec().width, 64);
     EXPECT_EQ(exr->spec().height, 48);
     EXPECT_EQ(exr->spec().format, OIIO::TypeDesc::HALF);
-    EXPECT_EQ(attribute(file("a.exr"), "regain:method"), "none, turquin");
+    EXPECT_EQ(attribute(file("a.exr"), "regain:method"), "none, directional");
     EXPECT_EQ(attribute(file("a.exr"), "regain:alpha"), "0.25, 1");
     EXPECT_EQ(attribute(file("a.exr"), "regain:metal"), "copper");
     EXPECT_EQ(attribute(file("a.exr"), "regain:seed"), "7");

@@ -131,6 +131,11 @@ REGAIN_SHADERS_API std::string_view name(const Compensation&);
 REGAIN_SHADERS_API std::optional<Compensation> compensation_named(std::string_view);
 REGAIN_SHADERS_API const std::vector<std::string_view>& compensation_names();
 
+/// What docs/methods.md recommends for want of a reason to take another: the gain nearest the walk
+/// of what goes with the surface.
+REGAIN_SHADERS_API Compensation recommended_compensation(
+    const std::variant<SchlickSurface, ConductorSurface, InterfaceSurface, SheenSurface>& surface);
+
 class MicrofacetMaterial
 {
 public:
@@ -138,7 +143,7 @@ public:
     DistributionKind distribution = DistributionKind::ggx;
     double gamma = 2;                       ///< of gtr and std
     double alpha_x = 0.05, alpha_y = 0.05;  ///< microfacet widths in [0, 1]
-    Compensation method = Method::turquin;
+    Compensation method = Method::turquin;  ///< which goes with all but sheen
 
     MicrofacetMaterial() = default;
     REGAIN_SHADERS_API MicrofacetMaterial(const SchlickMetal&);

@@ -297,6 +297,8 @@ std::vector<std::string> shipped_tables()
             names.push_back(std::string(distribution) + "_" + quantity);
     append(names, dielectric_table_names("ggx"));
     append(names, dielectric_table_names("beckmann"));
+    append(names, later_split_table_names("ggx"));
+    append(names, later_split_table_names("beckmann"));
     return names;
 }
 
@@ -316,6 +318,21 @@ std::vector<std::string> dielectric_table_names(const std::string& distribution,
                 info.quantity = quantity;
                 names.push_back(table_name(info));
             }
+    return names;
+}
+
+std::vector<std::string> later_split_table_names(const std::string& distribution, double gamma)
+{
+    TableInfo info;
+    info.distribution = distribution;
+    info.gamma = distribution == "gtr" || distribution == "std" ? gamma : 0;
+    info.quantity = "R_later";
+    std::vector<std::string> names;
+    for (const char* side : {"outside", "inside"})
+    {
+        info.side = side;
+        names.push_back(table_name(info));
+    }
     return names;
 }
 

@@ -32,6 +32,9 @@ constexpr int later_nodes = 12, later_node_accuracy = 128, later_check_accuracy 
               walks_per_accuracy = 1024;
 // Of a shape there is one for all cosines.
 constexpr int shape_nodes = 24, shape_node_accuracy = 512, shape_check_accuracy = 128;
+// Of a dielectric one number is asked for, but over three axes; one gamma is waited for.
+constexpr int split_cosines = 16, split_node_accuracy = 16, split_check_accuracy = 8,
+              tailed_split_accuracy = 4;
 // Along the surface all is reflected, and no light is left for a second bounce.
 constexpr double least_later_cosine = 0.01;
 
@@ -128,8 +131,8 @@ bool is_tailed(const std::string& distribution)
         "no table is called '" + name + "'" + why +
         "; there are DISTRIBUTION_QUANTITY with ggx, beckmann, gtr, std and E_ss, E_avg, falloff, "
         "dip, balance, q_ms, mu_ms, spread, forward, tilt, and "
-        "DISTRIBUTION_QUANTITY_SHADOWING_SIDE with "
-        "E_S, R_share; correlated, beta; outside, inside; there gtr and std take their gamma: "
+        "DISTRIBUTION_QUANTITY_SHADOWING_SIDE with E_S, R_share; correlated, beta; outside, "
+        "inside, and DISTRIBUTION_R_later_SIDE; in the latter two gtr and std take their gamma: "
         "gtr_1.3_E_S_beta_inside");
 }
 
@@ -179,10 +182,23 @@ SlopeLaw Family::law(double y, double z) const
 std::vector<Family::Values> Family::row(const std::vector<double>& xs, double y, double z,
                                         int nodes) const
 {
-    if (kind != Kind::average && kind != Kind::shape) return row(law(y, z), xs, y, z, nodes);
+    if (kind != Kind::average && kind != Kind::shape && kind != Kind::split)
+        return row(law(y, z), xs, y, z, nodes);
     std::vector<Values> values;
     for (double x : xs)
     {
+        if (kind == Kind::split)
+        {
+            // Of a flat surface the limit; and of grazing angles, where near eta = 1 a walk crosses
+            // the surface about alpha / mu times.
+            const double near = std::max(y, 0.01), alpha = alpha_of_root(near);
+            const double eta = eta_of_coordinate(z, inside, false);
+            const double mu = std::max(mu_of_dielectric(x, near, eta), 0.03 * alpha);
+            values.push_back({later_reflected_share(distribution, alpha, gamma, eta, mu,
+                                                    nodes * walks_per_accuracy),
+                              0, 0, 0});
+            continue;
+        }
         if (kind == Kind::shape)
         {
             const LaterShape shape =
@@ -257,6 +273,9 @@ bool Family::promised(double x, double y, double z, double share) const
     if (kind == Kind::shape) return alpha_at(x) >= 0.2;
     if (kind == Kind::dielectric)
         return mu_of_dielectric(x, y, eta_of_coordinate(z, inside, near_index)) >= 0.018 * share;
+    if (kind == Kind::split)
+        return alpha_of_root(y) >= 0.5 &&
+               mu_of_dielectric(x, y, eta_of_coordinate(z, inside, false)) >= 0.05;
     if (kind == Kind::later) return alpha_at(y) >= 0.1 && x * x >= 0.02;
     if (!has_tail_axis()) return true;
     const double alpha = alpha_of_tailed(y);
@@ -410,6 +429,34 @@ Definition Definition::of(const std::string& name)
         rest = end + 1;
     }
     info.gamma = d.family.gamma;
+    for (const char* side : sides)
+    {
+        if (rest != std::string("R_later_") + side) continue;
+        d.family.kind = Family::Kind::split;
+        d.family.inside = side == std::string("inside");
+        d.value = first;
+        d.fitted = false;
+        d.width = d.family.inside ? table_nodes : split_cosines;
+        d.height = later_nodes;
+        d.depth = split_cosines;
+        info.quantity = "R_later";
+        info.side = side;
+        info.axis_x = d.family.inside ? "critical_cosine_coordinate(mu, alpha, eta)"
+                                      : "sqrt(mu / (mu + alpha (1 - mu)))";
+        if (tailed) info.axis_x += ", alpha at least 0.05; with a tail";
+        info.axis_y = "sqrt(alpha)";
+        info.axis_z = "(5/3 |eta - 1| / (eta + 1))^(1/4)";
+        info.method = "random walks, 1024 for each of as many nodes as said";
+        info.error_kind = "absolute";
+        d.node_accuracy = tailed ? tailed_split_accuracy : split_node_accuracy;
+        d.check_accuracy = tailed ? tailed_split_accuracy : split_check_accuracy;
+        info.nodes = d.node_accuracy;
+        d.rounding = Rounding::half;
+        d.lowest = info.offset = 0;
+        d.highest = 1;
+        info.scale = 1.0 / 65535;
+        return d;
+    }
     for (const char* shadowing : shadowings)
         for (const char* side : sides)
             for (const bool share : {false, true})

@@ -20,6 +20,7 @@ struct Family
         average,      // E_avg
         later,        // q_ms, mu_ms
         shape,        // spread, forward, tilt
+        split,        // R_later
         dielectric    // E^R, correlated E^T, E^T in the beta form, w F(mu)
     };
     using Values = std::array<double, 4>;

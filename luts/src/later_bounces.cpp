@@ -6,6 +6,7 @@
 #include <regain/closures/azimuth_spread.h>
 #include <regain/closures/beckmann.h>
 #include <regain/closures/constant_fresnel.h>
+#include <regain/closures/dielectric_walk.h>
 #include <regain/closures/ggx.h>
 #include <regain/closures/gtr.h>
 #include <regain/closures/std.h>
@@ -216,6 +217,26 @@ LaterShape shape_of(const std::vector<Leaving>& all, double alpha)
     return shape;
 }
 
+template <class Distribution>
+double reflected_share(const Distribution& distribution, double eta_o, double mu, int walks)
+{
+    const auto prepared = DielectricWalk<Distribution>(distribution, eta_o)
+                              .prepare({std::sqrt((1 - mu) * (1 + mu)), 0, mu});
+    const Vec3<double> start = RandomStream<double>({0.5, 0.5, 0.25}).next3();
+    // What is usual counts where hardly a walk goes on; it costs the share of all light 1e-3.
+    const double usual_walks = 1e-3 * walks;
+    double again = usual_walks,
+           reflected = usual_walks * DielectricFresnel<double>(eta_o).average_reflectance();
+    for (int i = 0; i < walks; ++i)
+    {
+        const auto path = prepared.path(detail::shifted_numbers(start, i));
+        if (path.bounces < 1.5) continue;
+        again += 1;
+        if (!path.transmitted) reflected += 1;
+    }
+    return reflected / again;
+}
+
 // visit(distribution).
 template <class Visit>
 auto with_distribution(const std::string& name, double alpha, double gamma, const Visit& visit)
@@ -236,6 +257,13 @@ LaterBounces later_bounces(const std::string& distribution, double alpha, double
     return with_distribution(distribution, alpha, gamma, [&](const auto& d) {
         return fitted(walk(d, mu, walks), alpha, mu, E_ss, walks);
     });
+}
+
+double later_reflected_share(const std::string& distribution, double alpha, double gamma,
+                             double eta_o, double mu, int walks)
+{
+    return with_distribution(distribution, alpha, gamma,
+                             [&](const auto& d) { return reflected_share(d, eta_o, mu, walks); });
 }
 
 LaterShape later_shape(const std::string& distribution, double alpha, double gamma, int walks)

@@ -203,6 +203,12 @@ DielectricTables dielectric_tables(const std::string& distribution, Transmission
     return tables;
 }
 
+void add_later_split(DielectricTables& tables, const std::string& distribution, double gamma)
+{
+    const std::vector<std::string> names = later_split_table_names(distribution, gamma);
+    for (std::size_t side = 0; side < 2; ++side) tables.later[side] = loaded(names[side]).view();
+}
+
 std::vector<fs::path> loaded_files()
 {
     Library& lib = library();

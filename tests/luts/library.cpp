@@ -99,6 +99,7 @@ TEST_F(Library, every_shipped_table_is_found_and_is_what_its_name_says)
             luts::dielectric_tables(distribution, TransmissionShadowing::beta);
         EXPECT_TRUE(beta);
         EXPECT_TRUE(beta.logarithmic);
+        EXPECT_FALSE(beta.later[0]);
     }
     for (const std::string& name : luts::shipped_tables()) EXPECT_TRUE(luts::table_named(name));
 }
@@ -129,6 +130,15 @@ TEST_F(Library, a_table_baked_for_one_gamma_is_found)
     EXPECT_TRUE(luts::dielectric_tables("gtr", TransmissionShadowing::correlated, 1.75));
     EXPECT_THROW(luts::dielectric_tables("gtr", TransmissionShadowing::correlated, 1.76),
                  std::runtime_error);
+
+    DielectricTables tables;
+    EXPECT_THROW(luts::add_later_split(tables, "gtr", 1.75), std::runtime_error);
+    EXPECT_EQ(luts::later_split_table_names("gtr", 1.75).front(), "gtr_1.75_R_later_outside");
+    for (const std::string& name : luts::later_split_table_names("gtr", 1.75))
+        luts::write_table(file(name), small(info_of(name)));
+    luts::add_later_split(tables, "gtr", 1.75);
+    EXPECT_TRUE(tables.later[0] && tables.later[1]);
+    EXPECT_NEAR(tables.later_reflected_share(0.3, 1.5, 0.4), 0.5, 1e-5);
 }
 
 TEST_F(Library, stale_cut_and_mistaken_files_are_refused_by_name)

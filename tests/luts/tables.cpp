@@ -15,6 +15,7 @@
 #include <regain/luts/dielectric_integral.h>
 #include <regain/luts/embed.h>
 #include <regain/luts/exr.h>
+#include <regain/luts/later_bounces.h>
 #include <regain/luts/library.h>
 
 #include <gtest/gtest.h>
@@ -270,6 +271,37 @@ TEST(Tables, baking_and_look_ups_of_dielectrics_agree_about_axes)
                             EXPECT_NEAR(beta ? std::exp(found) : found, expected, 2e-5)
                                 << name << " " << alpha << " " << eta << " " << mu;
                         }
+}
+
+// The same of R_later, which has to be what walks from there do; the same walks, but for rounding.
+TEST(Tables, baking_and_look_ups_of_later_bounces_agree_about_axes)
+{
+    for (const std::string distribution : {"ggx", "gtr"})
+        for (const bool inside : {false, true})
+            for (double alpha : {0.1, 0.4, 0.9})
+                for (double index : {1.1, 1.6, 3.0})
+                    for (double mu : {0.1, 0.4, 0.95})
+                    {
+                        DielectricTables tables;
+                        tables.tail = distribution == "gtr";
+                        const double gamma = tables.tail ? 1.3 : 0,
+                                     eta = inside ? 1 / index : index;
+                        const auto coordinate = [&](int axis) {
+                            std::uint16_t ramp[8];
+                            for (int i = 0; i < 8; ++i) ramp[i] = i >> axis & 1 ? 65535 : 0;
+                            for (TableView& view : tables.later) view = {ramp, 2, 2, 2};
+                            return tables.later_reflected_share(alpha, eta, mu);
+                        };
+                        const std::string name = distribution + (tables.tail ? "_1.3" : "") +
+                                                 "_R_later_" + (inside ? "inside" : "outside");
+                        const double found = luts::exact_value(
+                            name, {coordinate(0), coordinate(1), coordinate(2)}, 1);
+                        EXPECT_NEAR(
+                            found,
+                            luts::later_reflected_share(distribution, alpha, gamma, eta, mu, 1024),
+                            0.02)
+                            << name << " " << alpha << " " << index << " " << mu;
+                    }
 }
 
 // A stale table fails: spots of each file are integrated again. Where nodes are not levelled they

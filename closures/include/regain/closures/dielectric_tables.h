@@ -127,6 +127,8 @@ struct DielectricTables
     bool logarithmic = false;  ///< E holds natural logarithms
     bool near_index = false;   ///< E[1] runs along z of the beta form
     bool tail = false;         ///< x is that of distributions with a tail
+    /// Reflected share of later bounces over (x, y, z), by side: see dielectric_tail.h.
+    TableView later[2];
 
     explicit operator bool() const { return E[0] && E[1] && R[0] && R[1]; }
 
@@ -163,6 +165,14 @@ struct DielectricTables
         const Real F = DielectricFresnel<Real>(eta_o).reflectance(mu);
         const Real w = detail::fresnel_weight(alpha, eta_o);
         return detail::saturate(w * F + look_up(R, false, alpha, eta_o, mu));
+    }
+
+    /// The reflected share of all that leaves after two facets or more, in [0, 1]; arguments as
+    /// above. Needs `later`.
+    template <class Real>
+    Real later_reflected_share(Real alpha, Real eta_o, Real mu) const
+    {
+        return detail::saturate(look_up(later, false, alpha, eta_o, mu));
     }
 
 private:

@@ -8,7 +8,8 @@
 ///     DISTRIBUTION_QUANTITY                   ggx, beckmann, gtr, std; E_ss, E_avg, falloff, dip,
 ///                                             balance, q_ms, mu_ms, spread, forward, tilt
 ///     DISTRIBUTION_QUANTITY_SHADOWING_SIDE    E_S, R_share; correlated, beta; outside, inside
-/// where in the second kind gtr and std are followed by one gamma, gtr_1.3_E_S_beta_inside: over
+///     DISTRIBUTION_QUANTITY_SIDE              R_later; outside, inside
+/// where in the latter kinds gtr and std are followed by one gamma, gtr_1.3_E_S_beta_inside: over
 /// gamma, too, the table would have four axes.
 
 #pragma once
@@ -45,6 +46,10 @@ REGAIN_LUTS_API std::vector<std::string> shipped_tables();
 REGAIN_LUTS_API std::vector<std::string> dielectric_table_names(const std::string& distribution,
                                                                 double gamma = 0);
 
+/// Those of the split of its later bounces, R_later from outside and from inside.
+REGAIN_LUTS_API std::vector<std::string> later_split_table_names(const std::string& distribution,
+                                                                 double gamma = 0);
+
 /// Throws std::invalid_argument, which says what names there are, unless bake knows this one.
 REGAIN_LUTS_API void require_bakeable(const std::string& name);
 
@@ -72,8 +77,8 @@ struct TablePoint
 REGAIN_LUTS_API double exact_value(const std::string& name, const TablePoint& at, int nodes);
 
 /// Whether the table's error is promised at a point: of q_ms and mu_ms from alpha 0.1 and mu 0.02
-/// on, else of distributions with a tail from alpha 5e-4 and mu 7e-4 on, of dielectrics from mu
-/// 0.018 on, of anything else everywhere.
+/// on, of R_later from alpha 0.5 and mu 0.05 on, else of distributions with a tail from alpha 5e-4
+/// and mu 7e-4 on, of dielectrics from mu 0.018 on, of anything else everywhere.
 REGAIN_LUTS_API bool is_error_promised(const std::string& name, const TablePoint& at);
 
 /// No error is promised where the quantity itself is below this: 0.1 of E_S in the beta form, which

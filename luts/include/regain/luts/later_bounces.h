@@ -3,7 +3,8 @@
 
 /// @file
 /// What light does on a microsurface after its first bounce, measured on random walks: the two
-/// numbers of the compensation method `directional` (regain/closures/directional_gain.h).
+/// numbers of the compensation method `directional` (regain/closures/directional_gain.h), the shape
+/// and, of a dielectric, the split that `tail` takes.
 
 #pragma once
 
@@ -48,6 +49,13 @@ struct LaterShape
 /// likelihood. The rest as above.
 REGAIN_LUTS_API LaterShape later_shape(const std::string& distribution, double alpha, double gamma,
                                        int walks);
+
+/// The share of what leaves a rough interface between two dielectrics after two facets or more that
+/// leaves on the side it came from (regain/closures/dielectric_tail.h). eta_o > 0 is the index
+/// ahead of wo over the index on its side; the rest as above. In [0, 1]. Where next to no light
+/// meets a second facet it passes to the average Fresnel reflectance.
+REGAIN_LUTS_API double later_reflected_share(const std::string& distribution, double alpha,
+                                             double gamma, double eta_o, double mu, int walks);
 
 }  // namespace luts
 REGAIN_NAMESPACE_END

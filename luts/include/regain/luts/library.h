@@ -54,6 +54,11 @@ REGAIN_LUTS_API DielectricTables dielectric_tables(const std::string& distributi
                                                    TransmissionShadowing shadowing,
                                                    double gamma = 0);
 
+/// Adds R_later of that distribution, which the method `tail` takes of a dielectric besides the
+/// tables of the beta form; errors as above.
+REGAIN_LUTS_API void add_later_split(DielectricTables& tables, const std::string& distribution,
+                                     double gamma = 0);
+
 /// One table by its name, compiled in or loaded; errors as above.
 REGAIN_LUTS_API TableView table_named(const std::string& name);
 

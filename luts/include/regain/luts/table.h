@@ -23,12 +23,13 @@ constexpr int table_definition = 2;
 /// What a table is; written whole into the header of its EXR file.
 struct TableInfo
 {
-    /// "E_ss", "E_avg", "falloff" or "dip", as in MicrofacetTables; "E_S" or "R_share" as in
-    /// DielectricTables.
+    /// "E_ss", "E_avg", "falloff" or "dip", as in MicrofacetTables; "E_S", "R_share" or "R_later"
+    /// as in DielectricTables.
     std::string quantity;
     std::string distribution;            ///< "ggx", "beckmann", "gtr" or "std"
     double gamma = 0;                    ///< tail parameter, 0 where it is an axis or there is none
-    std::string transmission_shadowing;  ///< "correlated" or "beta"; empty without transmission
+    std::string transmission_shadowing;  ///< "correlated" or "beta"; empty without transmission,
+                                         ///< and of R_later
     std::string side;  ///< "outside", eta_o >= 1, or "inside"; empty without transmission
     std::string axis_x, axis_y, axis_z;  ///< formula of each axis; empty for one that is not there
     std::string transform;   ///< "ln" where the numbers are logarithms of the quantity; else empty

@@ -30,11 +30,12 @@ namespace fs = std::filesystem;
 using Names = std::vector<std::string>;
 
 constexpr const char* help_footer = R"help(
-TABLE is DISTRIBUTION_QUANTITY: ggx, beckmann, gtr or std; E_ss, E_avg, falloff or dip. Those of
-dielectrics are DISTRIBUTION_QUANTITY_SHADOWING_SIDE: E_S or R_share; correlated or beta; outside
-or inside; there gtr and std take one gamma, gtr_1.3_E_S_beta_inside. Without names the four of ggx
-are baked that are compiled in. Those take ten seconds; on two cores the mirror tables of gtr or std
-take a minute or two, and so do the eight of dielectrics of a distribution, or of one gamma of it.
+TABLE is DISTRIBUTION_QUANTITY: ggx, beckmann, gtr or std; E_ss, E_avg, falloff, dip, balance, q_ms,
+mu_ms, spread, forward or tilt. Those of dielectrics are DISTRIBUTION_QUANTITY_SHADOWING_SIDE: E_S or
+R_share; correlated or beta; outside or inside, and DISTRIBUTION_R_later_SIDE; there gtr and std take
+one gamma, gtr_1.3_E_S_beta_inside. Without names those of ggx are baked that are compiled in. They
+take twenty seconds; on two cores the mirror tables of gtr or std take some minutes, and so do the ten
+of dielectrics of a distribution, or of one gamma of it.
 
 Tables are baked by deterministic quadrature on all cores, one after the other, and each is written,
 whole, as soon as it is done: after Ctrl-C those that are listed are there, all others are as they
@@ -94,8 +95,12 @@ Names asked_for(const Arguments& a)
     if (a.gammas.empty())
         for (const char* quantity : {"E_ss", "falloff", "dip", "E_avg"})
             add({a.distribution + "_" + quantity});
-    if (!tailed) add(luts::dielectric_table_names(a.distribution));
-    for (double gamma : a.gammas) add(luts::dielectric_table_names(a.distribution, gamma));
+    const auto add_glass = [&](double gamma) {
+        add(luts::dielectric_table_names(a.distribution, gamma));
+        add(luts::later_split_table_names(a.distribution, gamma));
+    };
+    if (!tailed) add_glass(0);
+    for (double gamma : a.gammas) add_glass(gamma);
     return names;
 }
 

@@ -145,6 +145,11 @@ private:
     {
         return added(closure.lobe());
     }
+    template <class Lobe>
+    GainAnswer gain_of(const DielectricTail<Lobe>& closure) const
+    {
+        return added(closure.lobe());
+    }
     template <class First, class Second>
     GainAnswer gain_of(const Sum<First, Second>& closure) const
     {

@@ -85,12 +85,13 @@ void read_interface(Fields& fields, ClosureSpec& spec)
     if (i.thin_walled)
         fields.reject("transmission_shadowing",
                       "a thin sheet transmits as it reflects, and has no form to choose");
-    else if (spec.is_stochastic())
+    else if (spec.is_stochastic() || std::holds_alternative<shaders::Tail>(spec.method))
     {
-        // A walk is what the beta form is the first bounce of.
+        // A walk is what the beta form is the first bounce of, and a tail goes on from there.
         i.shadowing = TransmissionShadowing::beta;
         if (fields.text("transmission_shadowing").value_or("beta") != "beta")
-            throw BadInput("the method walk needs 'transmission_shadowing' beta");
+            throw BadInput(fmt::format("the method {} needs 'transmission_shadowing' beta",
+                                       shaders::name(spec.method)));
     }
     else if (const auto given = fields.text("transmission_shadowing"))
         i.shadowing = static_cast<TransmissionShadowing>(

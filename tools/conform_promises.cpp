@@ -93,12 +93,13 @@ Promises promises_of(const ClosureSpec& spec, const Imath::V3d& wo)
     const double alpha = std::max(spec.alpha_x, spec.alpha_y);
     const auto* gain = std::get_if<Method>(&spec.method);
     const bool walks = std::holds_alternative<shaders::RandomWalk>(spec.method);
-    const bool adds = std::holds_alternative<KullaContyForm>(spec.method);
-    const bool balances = std::holds_alternative<shaders::Balanced>(spec.method);
-    const bool compensates =
-        adds || balances || std::holds_alternative<shaders::Directional>(spec.method) ||
-        std::holds_alternative<shaders::Tail>(spec.method) || (gain && *gain != Method::none);
     const bool glass = spec.lobe == Lobe::dielectric && !spec.interface.thin_walled;
+    const bool tail = std::holds_alternative<shaders::Tail>(spec.method);
+    const bool adds = std::holds_alternative<KullaContyForm>(spec.method) || (tail && glass);
+    const bool balances = std::holds_alternative<shaders::Balanced>(spec.method);
+    const bool compensates = adds || balances ||
+                             std::holds_alternative<shaders::Directional>(spec.method) || tail ||
+                             (gain && *gain != Method::none);
     const bool beta = glass && spec.interface.shadowing == TransmissionShadowing::beta;
 
     if (spec.lobe == Lobe::sheen)
@@ -173,7 +174,6 @@ Promises promises_of(const ClosureSpec& spec, const Imath::V3d& wo)
         p.furnace = p.albedo = std::nullopt;
     // The bare lobe's weights are at most 1; those of an added lobe at most 1.5 times what it
     // returns, or of Beckmann's beta form and of a tail, which is sampled without its tilt, twice.
-    const bool tail = std::holds_alternative<shaders::Tail>(spec.method);
     const bool twice = tail || (beta && spec.distribution == DistributionKind::beckmann);
     if (balances)
         p.weight = largest_pair_gain(spec, wo);

@@ -44,9 +44,23 @@ std::vector<Compensation> methods_of(const std::string& wanted, const Compensati
                        fmt::join(shaders::compensation_names(), ", ")));
 }
 
-bool walks(const std::vector<Compensation>& methods)
+// As much of an interface as decides about its method; one whose form of shadowing nobody asks for
+// has the walk's.
+InterfaceSurface shown_for_recommendation(const RenderOptions& options)
 {
-    return std::holds_alternative<shaders::RandomWalk>(methods.front());
+    InterfaceSurface glass;
+    glass.thin_walled = options.thin_walled;
+    if (options.transmission_shadowing.value_or("beta") == "beta")
+        glass.shadowing = TransmissionShadowing::beta;
+    return glass;
+}
+
+// A walk is what the beta form is the first bounce of, and a tail goes on from there.
+bool needs_beta(const std::vector<Compensation>& methods)
+{
+    const Compensation& method = methods.back();
+    return std::holds_alternative<shaders::RandomWalk>(method) ||
+           std::holds_alternative<shaders::Tail>(method);
 }
 
 }  // namespace
@@ -59,7 +73,7 @@ RenderMaterial::RenderMaterial(const RenderOptions& options, const shaders::Colo
     const auto kind = chosen<Kind>("--material", options.material, "material", names);
     check_belongings(options);
     if (kind == Kind::sheen) _material.surface = SheenSurface{};
-    if (kind == Kind::glass) _material.surface = InterfaceSurface{};
+    if (kind == Kind::glass) _material.surface = shown_for_recommendation(options);
     _methods = methods_of(options.method, shaders::recommended_compensation(_material.surface));
     if (kind == Kind::sheen)
         read_sheen(options);
@@ -107,8 +121,7 @@ void RenderMaterial::read_glass(const RenderOptions& options)
         glass.mode =
             chosen<ScatterMode>("--scatter-mode", *options.scatter_mode, "mode", mode_names);
 
-    // A walk is what the beta form is the first bounce of.
-    if (walks(_methods)) glass.shadowing = TransmissionShadowing::beta;
+    if (needs_beta(_methods)) glass.shadowing = TransmissionShadowing::beta;
     if (const auto& given = options.transmission_shadowing)
     {
         const auto shadowing = chosen<TransmissionShadowing>("--transmission-shadowing", *given,
@@ -120,9 +133,10 @@ void RenderMaterial::read_glass(const RenderOptions& options)
         if (glass.mode == ScatterMode::R)
             refuse("--transmission-shadowing", *given,
                    "does not go with --scatter-mode R, which transmits nothing; accepted: T, RT");
-        if (walks(_methods) && shadowing != TransmissionShadowing::beta)
+        if (needs_beta(_methods) && shadowing != TransmissionShadowing::beta)
             refuse("--transmission-shadowing", *given,
-                   "does not go with --method walk; accepted: beta");
+                   fmt::format("does not go with --method {}; accepted: beta",
+                               shaders::name(_methods.back())));
         glass.shadowing = shadowing;
     }
     _material.surface = glass;

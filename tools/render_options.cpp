@@ -47,8 +47,8 @@ void declare(RenderOptions& o, CLI::App& command)
 {
     command.footer(
         R"(Without options: gold of rising roughness, without compensation (top) and with
-the method directional (bottom), after Figure 1 of Turquin 2019; glass takes
-turquin. Sheen has no
+the method directional (bottom), after Figure 1 of Turquin 2019; glass has tail
+there, or turquin where that does not go with it. Sheen has no
 roughness: one row of rising weight, as in Figure 3. Ctrl-C writes what there is,
 marked with regain:partial = 1.
 
@@ -66,8 +66,9 @@ Examples:
   regain render --distribution gtr --gamma 1.5 --method walk)");
     command.add_option("-o,--output", o.output, "EXR to write; the PNG goes beside it")
         ->capture_default_str();
-    command.add_option("--method", o.method,
-                       "one row with this compensation method, instead of none above the recommended one");
+    command.add_option(
+        "--method", o.method,
+        "one row with this compensation method, instead of none above the recommended one");
     declare_materials(o, command);
     command.add_option("--object", o.object, "widget, sphere, or nested (a sphere in a sphere)")
         ->capture_default_str();

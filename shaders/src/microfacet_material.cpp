@@ -84,8 +84,11 @@ Compensation recommended_compensation(
     const std::variant<SchlickSurface, ConductorSurface, InterfaceSurface, SheenSurface>& surface)
 {
     if (std::holds_alternative<SheenSurface>(surface)) return Method::none;
-    if (std::holds_alternative<InterfaceSurface>(surface)) return Method::turquin;
-    return Directional{};
+    const auto* interface = std::get_if<InterfaceSurface>(&surface);
+    if (!interface) return Directional{};
+    if (interface->thin_walled || interface->shadowing != TransmissionShadowing::beta)
+        return Method::turquin;
+    return Tail{};
 }
 
 MicrofacetMaterial::MicrofacetMaterial(const SchlickMetal& metal)
@@ -113,7 +116,8 @@ void MicrofacetMaterial::bind_tables(bool for_albedo)
     if (interface)
     {
         const bool walks = !interface->thin_walled && interface->mode == ScatterMode::RT;
-        const bool adds = std::holds_alternative<KullaContyForm>(method);
+        const bool tail = std::holds_alternative<Tail>(method),
+                   adds = tail || std::holds_alternative<KullaContyForm>(method);
         if (is_walk && !walks)
             refuse("takes a dielectric of scatter mode RT that is not thin-walled");
         if (interface->thin_walled && adds)
@@ -121,7 +125,10 @@ void MicrofacetMaterial::bind_tables(bool for_albedo)
         if (!is_walk && !adds && !(gain && DielectricGain<double>::supports(*gain)))
             refuse(
                 "does not go with dielectrics; accepted: none, normalise, turquin, kulla-conty, "
-                "kulla-conty-series, walk, walk-bounded");
+                "kulla-conty-series, tail, walk, walk-bounded");
+        if (tail && interface->mode != ScatterMode::R &&
+            interface->shadowing != TransmissionShadowing::beta)
+            refuse("continues the beta form of transmission shadowing, and takes no other");
     }
     _tables = {};
     _interface_tables = {};
@@ -130,8 +137,14 @@ void MicrofacetMaterial::bind_tables(bool for_albedo)
     // Those of GGX mirrors cost nothing; others are files.
     if (!gains && !bounded && !for_albedo && distribution != DistributionKind::ggx) return;
     const std::string names(name(distribution));
-    if (!interface || interface->thin_walled ||
-        (interface->mode == ScatterMode::R && !std::holds_alternative<KullaContyForm>(method)))
+    const bool split = interface && std::holds_alternative<Tail>(method);
+    if (split)
+    {
+        _interface_tables = luts::dielectric_tables(names, TransmissionShadowing::beta, gamma);
+        luts::add_later_split(_interface_tables, names, gamma);
+    }
+    else if (!interface || interface->thin_walled ||
+             (interface->mode == ScatterMode::R && !std::holds_alternative<KullaContyForm>(method)))
     {
         _tables = luts::microfacet_tables(names);
         // Of a bounded walk they sharpen the pdf.

@@ -12,6 +12,7 @@
 #include <regain/closures/conductor.h>
 #include <regain/closures/dielectric_gain.h>
 #include <regain/closures/dielectric_kulla_conty.h>
+#include <regain/closures/dielectric_tail.h>
 #include <regain/closures/dielectric_walk.h>
 #include <regain/closures/directional_gain.h>
 #include <regain/closures/fitted_tail.h>
@@ -84,6 +85,7 @@ public:
             return fitted_tail(schlick(s), tables, strength(s));
         });
         add_glass();
+        if (!Distribution::has_tail) add_glass_tail();
         add(Lobe::schlick, "walk", [=](const Parameters& s) {
             return Walk<Distribution, SchlickFresnel<Number>>(distribution(s), schlick_curve(s), 1,
                                                               mirror_tables(d));
@@ -141,6 +143,17 @@ private:
                     return kulla_conty(dielectric(s, ScatterMode::RT, shadowing),
                                        glass_tables(d, shadowing), strength(s));
                 });
+    }
+
+    void add_glass_tail()
+    {
+        const std::string d = _name;
+        const auto beta = TransmissionShadowing::beta;
+        add(Lobe::dielectric, "tail", ScatterMode::RT, beta, [=](const Parameters& s) {
+            DielectricTables tables = glass_tables(d, beta);
+            luts::add_later_split(tables, d);
+            return fitted_tail(dielectric(s, ScatterMode::RT, beta), tables, strength(s));
+        });
     }
 
     template <class Make>

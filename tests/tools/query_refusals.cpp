@@ -100,14 +100,17 @@ TEST(query_refusals, what_belongs_to_another_closure)
 TEST(query_refusals, combinations_that_the_library_has_not)
 {
     for (const char* method : {"turquin-eq12", "turquin-eq13", "turquin-eq14", "series",
-                               "directional", "balanced", "tail", "burley-sheen"})
+                               "directional", "balanced", "burley-sheen"})
         check({{glass(), "method", method, {method, "does not go with dielectrics", "walk"}}});
     for (const char* method : {"turquin", "kulla-conty", "walk"})
         check({{sheen(), "method", method, {method, "does not go with sheen", "none"}}});
     json walk = glass();
     walk["method"] = "walk";
+    json tail = glass();
+    tail["method"] = "tail";
     check({{walk, "scatter_mode", "R", {"walk takes a dielectric of scatter mode RT"}},
            {walk, "transmission_shadowing", "correlated", {"walk needs", "beta"}},
+           {tail, "transmission_shadowing", "correlated", {"tail needs", "beta"}},
            {walk, "strength", 0.5, {"'strength' is 0.5", "0 or 1"}},
            {walk, "n", 0, {"'n' is 0"}}});
     json walked = albedo();

@@ -27,6 +27,7 @@
 #include <regain/closures/conductor_fresnel.h>
 #include <regain/closures/dielectric_gain.h>
 #include <regain/closures/dielectric_kulla_conty.h>
+#include <regain/closures/dielectric_tail.h>
 #include <regain/closures/dielectric_walk.h>
 #include <regain/closures/directional_gain.h>
 #include <regain/closures/fitted_tail.h>
@@ -131,8 +132,8 @@ REGAIN_SHADERS_API std::string_view name(const Compensation&);
 REGAIN_SHADERS_API std::optional<Compensation> compensation_named(std::string_view);
 REGAIN_SHADERS_API const std::vector<std::string_view>& compensation_names();
 
-/// What docs/methods.md recommends for want of a reason to take another: the gain nearest the walk
-/// of what goes with the surface.
+/// What docs/methods.md recommends for want of a reason to take another: `directional` of what
+/// reflects; of an interface `tail`, and `turquin` where that does not go with it.
 REGAIN_SHADERS_API Compensation recommended_compensation(
     const std::variant<SchlickSurface, ConductorSurface, InterfaceSurface, SheenSurface>& surface);
 
@@ -200,6 +201,8 @@ public:
             const Dielectric lobe(d, eta, i->mode, tint, tint, i->shadowing, _interface_tables);
             if (std::holds_alternative<KullaContyForm>(method))
                 return visit(kulla_conty(lobe, _interface_tables, strength));
+            if (std::holds_alternative<Tail>(method))
+                return visit(fitted_tail(lobe, _interface_tables, strength));
             return visit(compensated(lobe, gain_method(), _interface_tables, _tables, strength));
         }
         if (const auto* c = std::get_if<ConductorSurface>(&surface))

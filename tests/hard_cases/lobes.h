@@ -9,6 +9,8 @@
 #include "closure_subject.h"
 
 #include <regain/closures/balanced_gain.h>
+#include <regain/closures/bounded_dielectric_walk.h>
+#include <regain/closures/bounded_walk.h>
 #include <regain/closures/conductor.h>
 #include <regain/closures/dielectric_gain.h>
 #include <regain/closures/dielectric_kulla_conty.h>

@@ -295,7 +295,9 @@ void expect_finite_answers()
         const Distribution distribution(hostile.number(), hostile.number());
         const MicrofacetReflection<Distribution, SchlickFresnel<Real>> lobe(
             distribution, SchlickFresnel<Real>(hostile.color()), tables);
-        const Vec3<Real> wo(hostile.number(), hostile.number(), hostile.number());
+        // Whatever a closure is asked about, its gain is asked about unit directions.
+        const Vec3<Real> wo =
+            lobe.prepare({hostile.number(), hostile.number(), hostile.number()}).wo();
         const auto finite = [](const Color3<Real>& c) {
             return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z);
         };

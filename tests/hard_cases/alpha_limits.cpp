@@ -122,7 +122,10 @@ TYPED_TEST(AlphaLimits, a_narrow_lobe_reflects_F_close_to_the_mirror_direction)
                     ASSERT_TRUE(s.valid && !s.delta);
                     // Nine tenths of GGX's slopes are below 3 alpha, and a slope turns by twice.
                     EXPECT_LT((s.wi - mirror).length(), 10 * alpha);
-                    expect_color_near(s.weight, F, 10 * alpha * alpha + 3 * alpha, "weight");
+                    // Nodes of a balance are levelled about 1, which nothing clamps.
+                    const double levelled = kind.method == "balanced" ? 5e-4 : 0;
+                    expect_color_near(s.weight, F, 10 * alpha * alpha + 3 * alpha + levelled,
+                                      "weight");
                 }
         }
     });

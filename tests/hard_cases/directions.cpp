@@ -52,21 +52,22 @@ TYPED_TEST(Directions, at_the_pole_eval_is_F0_D_over_4)
 TYPED_TEST(Directions, at_the_pole_no_method_takes_light_away)
 {
     using Real = TypeParam;
-    for_each_kind<Real>([](const auto& kind) { return kind.is_mirror() && !kind.is_bare(); },
-                        [](const auto& kind) {
-                            for (double alpha : widths)
-                            {
-                                const Parameters s = Parameters::isotropic(alpha);
-                                const Vec3<Real> pole(0, 0, 1);
-                                const double D = peak(kind.distribution, alpha, alpha, s.gamma);
-                                const auto F = facet_reflectance(kind, s, 1, 1);
-                                const auto f = kind.make(s)->eval(pole, pole);
-                                const double tolerance =
-                                    (kind.has_tail() ? 1e3 : 40) * rounding<Real> * D;
-                                for (int c = 0; c < 3; ++c)
-                                    EXPECT_GE(f[c], F[c] * D / 4 - tolerance);
-                            }
-                        });
+    // A balance gives some directions what it takes from others.
+    const auto wanted = [](const auto& kind) {
+        return kind.is_mirror() && !kind.is_bare() && kind.method != "balanced";
+    };
+    for_each_kind<Real>(wanted, [](const auto& kind) {
+        for (double alpha : widths)
+        {
+            const Parameters s = Parameters::isotropic(alpha);
+            const Vec3<Real> pole(0, 0, 1);
+            const double D = peak(kind.distribution, alpha, alpha, s.gamma);
+            const auto F = facet_reflectance(kind, s, 1, 1);
+            const auto f = kind.make(s)->eval(pole, pole);
+            const double tolerance = (kind.has_tail() ? 1e3 : 40) * rounding<Real> * D;
+            for (int c = 0; c < 3; ++c) EXPECT_GE(f[c], F[c] * D / 4 - tolerance);
+        }
+    });
 }
 
 // A sample at the pole leaves along it where the normal is the surface's: u = 0 for GGX.

@@ -139,7 +139,7 @@ TEST(KitSharedObject, what_cannot_be_used_is_refused_with_the_reason)
              {"null_albedo", "the function albedo of 'lambert' is null"},
              {"no_precision", "neither in float nor in double"},
              {"no_range", "reads gamma from 3"},
-             {"bad_form", "the form of 'lambert2' is 4; accepted: 0 to 3"},
+             {"bad_form", "the form of 'lambert2' is 5; accepted: 0 to 4"},
              {"bad_bare", "'lambert' names 'a name; with more'"}})
     {
         const std::string said = refusal(object(name));

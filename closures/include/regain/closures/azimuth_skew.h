@@ -47,7 +47,8 @@ public:
         const Real s2 = detail::max((Real(1) - mu) * (Real(1) + mu), Real(0));
         const Lengths l(*this, mu, s2);
         const MaskOf<Real> even = u < Real(0.5f);
-        const Real part = detail::select(even, u + u, u + u - Real(1));
+        // Where both widths are the same the two halves are one.
+        const Real part = detail::select(_x == _y, u, detail::select(even, u + u, u + u - Real(1)));
         const Real psi = detail::constant<Real>(6.28318530717958647692) * part;
         const Real x = detail::cos(psi) * detail::select(even, Real(1), detail::sqrt(l.b2)),
                    y = detail::sin(psi) * detail::select(even, Real(1), detail::sqrt(l.a2));

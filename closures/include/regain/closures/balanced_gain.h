@@ -68,6 +68,14 @@ public:
         return Prepared(*this, wo).pair(wi);
     }
 
+private:
+    struct End
+    {
+        Real g = Real(1);
+        Color tint = Color(Real(0));  // s t / 2
+    };
+
+public:
     /// What depends on wo alone.
     class Prepared
     {
@@ -82,18 +90,13 @@ public:
 
     private:
         BalancedGain _gain;
-        typename BalancedGain::End _o;
+        End _o;
     };
 
     /// At full strength; of an anisotropic lobe it is not promised.
     bool energy_preserving() const { return _bound && _tint.energy_preserving(); }
 
 private:
-    struct End
-    {
-        Real g = Real(1);
-        Color tint = Color(Real(0));  // s t / 2
-    };
     End end(const Vec3<Real>& w) const
     {
         if (!_bound) return {};

@@ -155,7 +155,10 @@ Promises promises_of(const ClosureSpec& spec, const Imath::V3d& wo)
         if (std::get<shaders::RandomWalk>(spec.method).bounded)
         {
             // By the tables of single scattering.
-            p.pdf = glass ? 3e-3 : spec.distribution == DistributionKind::ggx ? 1e-3 : 5e-3;
+            p.pdf = glass                                        ? 3e-3
+                    : spec.distribution == DistributionKind::ggx ? 1e-3
+                    : shaders::has_gamma(spec.distribution)      ? 1e-2
+                                                                 : 5e-3;
             if (!glass) p.albedo = 0.02;
         }
     }
@@ -177,6 +180,12 @@ Promises promises_of(const ClosureSpec& spec, const Imath::V3d& wo)
     const bool twice = tail || (beta && spec.distribution == DistributionKind::beckmann);
     if (balances)
         p.weight = largest_pair_gain(spec, wo);
+    else if (!isotropic && (adds || tail))
+    {
+        // What single azimuths lose is sampled by half; in a tail little of it is left in float.
+        p.weight = std::max(largest_gain(spec, wo), 6.0);
+        p.single = std::max(p.single, 5e-3);
+    }
     else if (compensates)
         p.weight = std::max(largest_gain(spec, wo), twice ? 2 : adds ? 1.5 : 1.0);
     return p;

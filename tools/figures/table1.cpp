@@ -370,7 +370,7 @@ Figure make_table1(const Request& request)
     add("directional", "gain(wo)", with_directional_gain(),
         E_ss + bytes(tables.q_ms) + bytes(tables.mu_ms));
     add("balanced", "gain(wo) gain(wi)", with_balanced_gain(),
-        bytes(tables.balance) + bytes(tables.q_ms) + bytes(tables.mu_ms));
+        E_ss + bytes(tables.balance) + bytes(tables.q_ms) + bytes(tables.mu_ms));
     for (const KullaContyForm form : all_kulla_conty_forms)
         add(std::string(name(form)), "added lobe", with_added_lobe(form), E_ss);
     add("tail", "added lobe", with_tail(),

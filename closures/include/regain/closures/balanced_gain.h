@@ -20,7 +20,7 @@
 ///
 /// t is the colour of the later bounces, F_ms of directional_gain.h, 1 where F = 1. Of each
 /// direction of a pair it says something else; their mean is symmetric, too. Against the walk its
-/// albedo is within 1.2e-2 of GGX and Beckmann (docs/methods.md).
+/// albedo is within 1.4e-2 of GGX and Beckmann (docs/methods.md).
 ///
 /// Directions and pdfs are the lobe's. A sample's weight is that of the lobe times the gain, whose
 /// factor of wi evens out the masking on the way out: with F = 1 and alpha 1 the weight's variance

@@ -32,9 +32,8 @@
 #pragma once
 
 #include <regain/closures/anisotropy.h>
-#include <regain/closures/dielectric.h>
+#include <regain/closures/dielectric_with_added_lobes.h>
 #include <regain/closures/missing_energy.h>
-#include <regain/closures/sum.h>
 
 REGAIN_NAMESPACE_BEGIN
 
@@ -278,83 +277,19 @@ private:
 /// A Dielectric and its added lobes.
 template <class LobeType>
 class DielectricKullaConty
-    : public Shorthands<DielectricKullaConty<LobeType>, typename LobeType::Real>
+    : public DielectricWithAddedLobes<LobeType, DielectricMissingEnergyLobe<LobeType>>
 {
 public:
     using Lobe = LobeType;
     using Real = typename Lobe::Real;
-    using Color = Color3<Real>;
-    using Added = DielectricMissingEnergyLobe<Lobe>;
-    using Mixture = Sum<Lobe, Added>;
-    static constexpr int random_numbers = Mixture::random_numbers;
 
     /// strength in [0, 1] scales the added lobes; clamped, NaN becomes 0. Without tables there are
     /// none.
     DielectricKullaConty(const Lobe& lobe, const DielectricTables& tables, Real strength = Real(1),
                          KullaContySplit split = KullaContySplit::kulla_conty)
-        : _mixture(lobe, Added(lobe, tables, strength, split))
-    {
-        const Real F = DielectricFresnel<Real>(lobe.eta()).average_reflectance();
-        const bool reflects = lobe.scatter_mode() != ScatterMode::T,
-                   transmits = lobe.scatter_mode() != ScatterMode::R;
-        _scattered = (reflects ? total(lobe.reflection_tint()) * F : Real(0)) +
-                     (transmits ? total(lobe.transmission_tint()) * (Real(1) - F) : Real(0));
-
-        const auto& distribution = lobe.distribution();
-        // The tables know one width; what they say of two is an estimate.
-        _preserves = _mixture.second().bound() && reflects && transmits &&
-                     detail::all<Real>(detail::saturate(strength) == Real(1)) &&
-                     detail::all<Real>(distribution.alpha_x() == distribution.alpha_y());
-    }
-
-    const Lobe& lobe() const { return _mixture.first(); }
-    const Added& added_lobe() const { return _mixture.second(); }
-
-    Traits traits() const
-    {
-        Traits t = _mixture.traits();
-        t.energy_preserving = _preserves;
-        return t;
-    }
-
-    class Prepared : public Mixture::Prepared
-    {
-    public:
-        Prepared(const DielectricKullaConty& closure, const Vec3<Real>& wo)
-            : Prepared(closure, closure.lobe().prepare(wo), closure.added_lobe().prepare(wo))
-        {}
-
-    private:
-        // A sample of the lobe is worth about 1 or nothing, so its second moment is its albedo. In
-        // proportion to albedos the largest weight would be 1 / E^S, 7 where this has 3.
-        Prepared(const DielectricKullaConty& closure, const typename Lobe::Prepared& lobe,
-                 const typename Added::Prepared& added)
-            : Mixture::Prepared(lobe, added, size(closure, lobe, Real(1) - added.loss()),
-                                total(added.albedo()))
-        {}
-
-        // Of reflection alone a sample is worth its share of E^S, which the average over directions
-        // does not tell: near eta = 1 nothing reflects but what grazes. Of transmission alone the
-        // average is better, since tables know little of a share that is next to nothing.
-        static Real size(const DielectricKullaConty& closure, const typename Lobe::Prepared& lobe,
-                         Real E)
-        {
-            const Real root = detail::sqrt(E);
-            if (closure.lobe().scatter_mode() != ScatterMode::R || !closure.lobe().tables())
-                return closure._scattered * root;
-            return total(lobe.albedo()) / detail::max(root, detail::constant<Real>(1e-6));
-        }
-    };
-
-    Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
-
-private:
-    static Real total(const Color& c) { return c.x + c.y + c.z; }
-    static Real total(const Albedo<Real>& a) { return total(a.reflect) + total(a.transmit); }
-
-    Mixture _mixture;
-    Real _scattered;  // how much of what is not lost is seen, over all directions of wo
-    bool _preserves;
+        : DielectricWithAddedLobes<Lobe, DielectricMissingEnergyLobe<Lobe>>(
+              lobe, {lobe, tables, strength, split}, strength)
+    {}
 };
 
 /// The dielectric compensated by added lobes, at strength s in [0, 1]. The tables, of its

@@ -31,9 +31,8 @@
 
 #pragma once
 
-#include <regain/closures/dielectric.h>
+#include <regain/closures/dielectric_with_added_lobes.h>
 #include <regain/closures/missing_energy.h>
-#include <regain/closures/sum.h>
 
 REGAIN_NAMESPACE_BEGIN
 
@@ -349,77 +348,18 @@ private:
 
 /// A Dielectric and its tail.
 template <class LobeType>
-class DielectricTail : public Shorthands<DielectricTail<LobeType>, typename LobeType::Real>
+class DielectricTail : public DielectricWithAddedLobes<LobeType, DielectricTailLobe<LobeType>>
 {
 public:
     using Lobe = LobeType;
     using Real = typename Lobe::Real;
-    using Color = Color3<Real>;
-    using Added = DielectricTailLobe<Lobe>;
-    using Mixture = Sum<Lobe, Added>;
-    static constexpr int random_numbers = Mixture::random_numbers;
 
     /// strength in [0, 1] scales the added lobes; clamped, NaN becomes 0. Without tables there are
     /// none.
     DielectricTail(const Lobe& lobe, const DielectricTables& tables, Real strength = Real(1))
-        : _mixture(lobe, Added(lobe, tables, strength))
-    {
-        const Real F = DielectricFresnel<Real>(lobe.eta()).average_reflectance();
-        const bool reflects = lobe.scatter_mode() != ScatterMode::T,
-                   transmits = lobe.scatter_mode() != ScatterMode::R;
-        _scattered = (reflects ? total(lobe.reflection_tint()) * F : Real(0)) +
-                     (transmits ? total(lobe.transmission_tint()) * (Real(1) - F) : Real(0));
-
-        const auto& distribution = lobe.distribution();
-        // The tables know one alpha; what they say of two is an estimate.
-        _preserves = _mixture.second().bound() && reflects && transmits &&
-                     detail::all<Real>(detail::saturate(strength) == Real(1)) &&
-                     detail::all<Real>(distribution.alpha_x() == distribution.alpha_y());
-    }
-
-    const Lobe& lobe() const { return _mixture.first(); }
-    const Added& added_lobe() const { return _mixture.second(); }
-
-    Traits traits() const
-    {
-        Traits t = _mixture.traits();
-        t.energy_preserving = _preserves;
-        return t;
-    }
-
-    class Prepared : public Mixture::Prepared
-    {
-    public:
-        Prepared(const DielectricTail& closure, const Vec3<Real>& wo)
-            : Prepared(closure, closure.lobe().prepare(wo), closure.added_lobe().prepare(wo))
-        {}
-
-    private:
-        // What makes small weights of a mixture with added lobes: see dielectric_kulla_conty.h.
-        Prepared(const DielectricTail& closure, const typename Lobe::Prepared& lobe,
-                 const typename Added::Prepared& added)
-            : Mixture::Prepared(lobe, added, size(closure, lobe, Real(1) - added.loss()),
-                                total(added.albedo()))
-        {}
-
-        static Real size(const DielectricTail& closure, const typename Lobe::Prepared& lobe, Real E)
-        {
-            const Real root = detail::sqrt(detail::max(E, Real(0)));
-            if (closure.lobe().scatter_mode() != ScatterMode::R || !closure.lobe().tables())
-                return closure._scattered * root;
-            return total(lobe.albedo()) / detail::max(root, detail::constant<Real>(1e-6));
-        }
-    };
-
-    Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
-
-private:
-    static Real total(const Color& c) { return c.x + c.y + c.z; }
-    static Real total(const Albedo<Real>& a) { return total(a.reflect) + total(a.transmit); }
-
-    Mixture _mixture;
-    Real _scattered;  // how much of what is not lost is seen, over all directions of wo
-    bool _preserves;
+        : DielectricWithAddedLobes<Lobe, DielectricTailLobe<Lobe>>(lobe, {lobe, tables, strength},
+                                                                   strength)
+    {}
 };
 
 /// The dielectric compensated by its tail at strength s in [0, 1]. The tables, of its distribution

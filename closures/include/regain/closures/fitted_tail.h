@@ -38,7 +38,7 @@
 #include <regain/closures/azimuth_spread.h>
 #include <regain/closures/directional_gain.h>
 #include <regain/closures/missing_energy.h>
-#include <regain/closures/sum.h>
+#include <regain/closures/reflection_with_added_lobe.h>
 
 REGAIN_NAMESPACE_BEGIN
 
@@ -361,62 +361,18 @@ private:
 
 /// A MicrofacetReflection and its tail.
 template <class LobeType>
-class FittedTail : public Shorthands<FittedTail<LobeType>, typename LobeType::Real>
+class FittedTail : public ReflectionWithAddedLobe<LobeType, FittedTailLobe<typename LobeType::Real>>
 {
 public:
     using Lobe = LobeType;
     using Real = typename Lobe::Real;
-    using Color = Color3<Real>;
-    using Mixture = Sum<Lobe, FittedTailLobe<Real>>;
-    static constexpr int random_numbers = Mixture::random_numbers;
 
     /// strength in [0, 1] scales the added lobe; clamped, NaN becomes 0. Without its tables there
     /// is no added lobe.
     FittedTail(const Lobe& lobe, const MicrofacetTables& tables, Real strength = Real(1))
-        : _mixture(lobe,
-                   FittedTailLobe<Real>(lobe.distribution(), lobe.fresnel(), tables, strength)),
-          _F_ss(lobe.fresnel().average())
-    {
-        const auto& distribution = lobe.distribution();
-        // Of two widths the tables know to one per cent, which is no promise.
-        _preserves = _mixture.second().bound() &&
-                     detail::all<Real>(detail::saturate(strength) == Real(1)) &&
-                     detail::all<Real>(distribution.alpha_x() == distribution.alpha_y());
-    }
-
-    const Lobe& lobe() const { return _mixture.first(); }
-    const FittedTailLobe<Real>& added_lobe() const { return _mixture.second(); }
-
-    Traits traits() const
-    {
-        Traits t = _mixture.traits();
-        t.energy_preserving = _preserves;
-        return t;
-    }
-
-    class Prepared : public Mixture::Prepared
-    {
-    public:
-        Prepared(const FittedTail& closure, const Vec3<Real>& wo)
-            : Prepared(closure, closure.lobe().prepare(wo), closure.added_lobe().prepare(wo))
-        {}
-
-    private:
-        // The lobe's own albedo would cost more look-ups, or an integral where there are none.
-        Prepared(const FittedTail& closure, const typename Lobe::Prepared& lobe,
-                 const typename FittedTailLobe<Real>::Prepared& added)
-            : Mixture::Prepared(lobe, added, total(closure._F_ss) * (Real(1) - added.loss()),
-                                total(added.albedo().reflect))
-        {}
-        static Real total(const Color& c) { return c.x + c.y + c.z; }
-    };
-
-    Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
-
-private:
-    Mixture _mixture;
-    Color _F_ss;
-    bool _preserves;
+        : ReflectionWithAddedLobe<Lobe, FittedTailLobe<Real>>(
+              lobe, {lobe.distribution(), lobe.fresnel(), tables, strength}, strength)
+    {}
 };
 
 /// The lobe compensated by its tail at strength s in [0, 1]. The tables serve the tail and, unless

@@ -30,7 +30,7 @@
 
 #include <regain/closures/microfacet_reflection.h>
 #include <regain/closures/missing_energy.h>
-#include <regain/closures/sum.h>
+#include <regain/closures/reflection_with_added_lobe.h>
 
 #include <optional>
 #include <string_view>
@@ -227,57 +227,20 @@ private:
 
 /// A MicrofacetReflection and its added lobe.
 template <class LobeType>
-class KullaConty : public Shorthands<KullaConty<LobeType>, typename LobeType::Real>
+class KullaConty
+    : public ReflectionWithAddedLobe<LobeType, MissingEnergyLobe<typename LobeType::Real>>
 {
 public:
     using Lobe = LobeType;
     using Real = typename Lobe::Real;
-    using Color = Color3<Real>;
-    using Mixture = Sum<Lobe, MissingEnergyLobe<Real>>;
-    static constexpr int random_numbers = Mixture::random_numbers;
 
     /// strength in [0, 1] scales the added lobe; clamped, NaN becomes 0. Without a table of E_ss
     /// there is no added lobe.
     KullaConty(const Lobe& lobe, KullaContyForm form, const MicrofacetTables& tables,
                Real strength = Real(1))
-        : _mixture(lobe, added(lobe, form, tables, detail::saturate(strength))),
-          _F_ss(lobe.fresnel().average())
-    {
-        const auto& distribution = lobe.distribution();
-        // Of two widths the tables know to one per cent, which is no promise.
-        _preserves = _mixture.second().bound() &&
-                     detail::all<Real>(detail::saturate(strength) == Real(1)) &&
-                     detail::all<Real>(distribution.alpha_x() == distribution.alpha_y());
-    }
-
-    const Lobe& lobe() const { return _mixture.first(); }
-    const MissingEnergyLobe<Real>& added_lobe() const { return _mixture.second(); }
-
-    Traits traits() const
-    {
-        Traits t = _mixture.traits();
-        t.energy_preserving = _preserves;
-        return t;
-    }
-
-    class Prepared : public Mixture::Prepared
-    {
-    public:
-        Prepared(const KullaConty& closure, const Vec3<Real>& wo)
-            : Prepared(closure, closure.lobe().prepare(wo), closure.added_lobe().prepare(wo))
-        {}
-
-    private:
-        // The lobe's own albedo would cost more look-ups, or an integral where there are none.
-        Prepared(const KullaConty& closure, const typename Lobe::Prepared& lobe,
-                 const typename MissingEnergyLobe<Real>::Prepared& added)
-            : Mixture::Prepared(lobe, added, total(closure._F_ss) * (Real(1) - added.loss()),
-                                total(added.albedo().reflect))
-        {}
-        static Real total(const Color& c) { return c.x + c.y + c.z; }
-    };
-
-    Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
+        : ReflectionWithAddedLobe<Lobe, MissingEnergyLobe<Real>>(
+              lobe, added(lobe, form, tables, detail::saturate(strength)), strength)
+    {}
 
 private:
     static MissingEnergyLobe<Real> added(const Lobe& lobe, KullaContyForm form,
@@ -288,10 +251,6 @@ private:
         added.set_tint(kulla_conty_tint(form, lobe.fresnel().average(), E_avg) * strength);
         return added;
     }
-
-    Mixture _mixture;
-    Color _F_ss;
-    bool _preserves;
 };
 
 /// The lobe compensated by Kulla and Conty's added lobe, at strength s in [0, 1]. The tables serve

@@ -31,44 +31,55 @@ typename Distribution::Real carried_density(const Distribution& distribution,
     return Real(4) * wi.z * lost.quarter_D * stay / (area * (out + stay));
 }
 
-/// Where about the normal walks leave: 2 pi Phi of azimuth_spread.h, by a normal distribution that
+/// Where about the normal walks leave: 2 pi N of azimuth_spread.h, by a normal distribution that
 /// takes neither an exponential nor an error function,
 ///   N(phi) = (1 - g^2)^7 / (2 pi (1 + 9 g^2 + 9 g^4 + g^6) (1 + g^2 - 2 g cos phi)^4)
 /// with the same curvature at its top, 4 g / (1 - g)^2 = w; it, too, integrates to 1.
+template <class Real>
+struct ForwardNormal
+{
+    Real value, least;  ///< 2 pi N, and that at phi = pi
+
+    /// k >= 1e-6 in rad^2; wo and wi on whatever side.
+    ForwardNormal(const Real& k, const Vec3<Real>& wo, const Vec3<Real>& wi)
+    {
+        const Real tiny = constant<Real>(1e-30), one(1);
+        const Real s = detail::sqrt((wo.x * wo.x + wo.y * wo.y) * (wi.x * wi.x + wi.y * wi.y)),
+                   sum = abs(wo.z) + abs(wi.z);
+        // w / 4, no narrower than there.
+        const Real r = min(s * s / max(Real(8) * k * sum * sum * (s + k), tiny), Real(1250));
+        const Real g = Real(2) * r / (Real(2) * r + one + detail::sqrt(Real(4) * r + one));
+        // 1 + g^2 - 2 g cos phi, of 1 - cos phi.
+        const Real away = max(s + wo.x * wi.x + wo.y * wi.y, Real(0)) / max(s, tiny);
+        const Real g2 = g * g, left = (one - g) * (one - g) + Real(2) * g * away;
+        const Real u = one - g2, q = u / left, q2 = q * q;
+        const Real norm = one + g2 * (Real(9) + g2 * (Real(9) + g2));
+        value = q2 * q2 * u * u * u / norm;
+        const Real p = (one - g) / (one + g), p2 = p * p;
+        least = p2 * p2 * u * u * u / norm;
+    }
+};
+
+/// A part m of light spread by that, the rest any way.
 template <class Real>
 class ForwardAzimuth
 {
 public:
     /// Any way.
     ForwardAzimuth() = default;
-    /// k > 0 in rad^2 and m in [0, 1].
-    ForwardAzimuth(Real k, Real m) : _k(max(k, constant<Real>(1e-6))), _m(m) {}
     /// As `tables` have it of a distribution; any way where they do not.
     ForwardAzimuth(const MicrofacetTables& tables, const TableAxes<Real>& axes)
     {
         if (!tables.has_later_shape()) return;
         const Real root = tables.later_spread(axes);
-        *this = {root * root, saturate(tables.later_forward(axes))};
+        _k = max(root * root, constant<Real>(1e-6));
+        _m = saturate(tables.later_forward(axes));
     }
-
-    Real spread() const { return _k; }
-    Real forward() const { return _m; }
 
     /// 2 pi Phi; wo and wi on whatever side.
     Real relative_density(const Vec3<Real>& wo, const Vec3<Real>& wi) const
     {
-        const Real tiny = constant<Real>(1e-30), one(1);
-        const Real s = detail::sqrt((wo.x * wo.x + wo.y * wo.y) * (wi.x * wi.x + wi.y * wi.y)),
-                   sum = abs(wo.z) + abs(wi.z);
-        // w / 4, no narrower than there.
-        const Real r = min(s * s / max(Real(8) * _k * sum * sum * (s + _k), tiny), Real(1250));
-        const Real g = Real(2) * r / (Real(2) * r + one + detail::sqrt(Real(4) * r + one));
-        // 1 + g^2 - 2 g cos phi, of 1 - cos phi.
-        const Real away = max(s + wo.x * wi.x + wo.y * wi.y, Real(0)) / max(s, tiny);
-        const Real g2 = g * g, left = (one - g) * (one - g) + Real(2) * g * away;
-        const Real u = one - g2, q = u / left, q2 = q * q;
-        const Real normal = q2 * q2 * u * u * u / (one + g2 * (Real(9) + g2 * (Real(9) + g2)));
-        return one + _m * (normal - one);
+        return Real(1) + _m * (ForwardNormal<Real>(_k, wo, wi).value - Real(1));
     }
 
 private:
@@ -117,71 +128,6 @@ private:
     TableAxes<Real> _axes;
     Real _scale = Real(0);
     ForwardAzimuth<Real> _azimuth;
-};
-
-/// The same of light that has met two or more facets of a dielectric interface, by closed forms
-/// that were fitted to walks of GGX and Beckmann at index 1.5. eta is the index ahead of wo over
-/// the one behind, mu_o = |cos theta_o|, z = |cos theta_i|, and each lobe is normalised:
-///
-///   eta >= 1   transmitted   0.985          z^(1 + 0.8 alpha)
-///              reflected     0.015          z / (z + 1/2)
-///   eta < 1    transmitted   b              z / (z + 3/10)
-///              reflected     1 - b          (1 - mu_o) z / (z + mu_o + 1/5)^2 + mu_o z
-///              b = eta^2 mu_o (0.3 + (1 - m)(0.3 + 0.15 alpha) + 2 (eta - 2/3)), the bracket in
-///                  [0.25, 1.2]
-///
-/// times 2 pi Phi. With k and m those of conductors, its own are k (1 - alpha m / 2) and
-/// 1 - (1 - m) / 2 outside, k (1 - 0.8 alpha^2 m) and 1 - 0.4 (1 - m) inside. A twentieth is a
-/// cosine lobe on either side.
-template <class Real>
-class LaterDielectricDensity
-{
-public:
-    LaterDielectricDensity(const ForwardAzimuth<Real>& azimuth, const Real& alpha, const Real& eta,
-                           const Real& mu)
-        : _inside(eta < Real(1)), _mu(min(mu, Real(1))), _power(Real(1) + Real(0.8f) * alpha)
-    {
-        const Real one(1), m = azimuth.forward(), any_way = one - m;
-        const Real narrower = select(_inside, constant<Real>(0.8) * alpha * alpha, alpha / Real(2));
-        _azimuth = {azimuth.spread() * (one - narrower * m),
-                    one - any_way * select(_inside, constant<Real>(0.4), Real(0.5f))};
-        const Real steepness = constant<Real>(0.3) + any_way * constant<Real>(0.3) +
-                               any_way * alpha * constant<Real>(0.15) +
-                               Real(2) * (eta - constant<Real>(2.0 / 3));
-        const Real slope = max(min(steepness, constant<Real>(1.2)), constant<Real>(0.25));
-        _passes = select(_inside, min(eta * eta * _mu * slope, constant<Real>(0.95)),
-                         constant<Real>(0.985));
-        _shift = _mu + constant<Real>(0.2);
-        _inv_norm =
-            Real(1) / (detail::log((Real(1) + _shift) / _shift) - Real(1) / (Real(1) + _shift));
-    }
-
-    /// Per steradian; integrates to 1 over both sides. wi is beyond the surface or not.
-    Real at(const Vec3<Real>& wo, const Vec3<Real>& wi, const MaskOf<Real>& beyond) const
-    {
-        const Real z = min(abs(wi.z), Real(1)), one(1);
-        // 2 int_0^1 z / (z + q) dz = 2 (1 - q ln((1 + q) / q)).
-        const Real near = z / (z + constant<Real>(0.3)) * constant<Real>(1 / 0.5600987895),
-                   far = z / (z + constant<Real>(0.5)) * constant<Real>(1 / 0.4506938557);
-        const Real steep = z + _shift;
-        const Real back = (one - _mu) * z * _inv_norm / (steep * steep) + _mu * Real(2) * z;
-        Real through = near;
-        if (!all<Real>(_inside))
-            through = select(_inside, near,
-                             (one + _power) * detail::pow(max(z, constant<Real>(1e-12)), _power));
-        const Real polar =
-            select(beyond, _passes * through, (one - _passes) * select(_inside, back, far));
-        return constant<Real>(0.159154943091895335769) *
-               (constant<Real>(0.95) * polar * _azimuth.relative_density(wo, wi) +
-                constant<Real>(0.05) * z);
-    }
-
-private:
-    ForwardAzimuth<Real> _azimuth;
-    MaskOf<Real> _inside;
-    Real _mu, _power;
-    Real _passes;            // b
-    Real _shift, _inv_norm;  // mu_o + 1/5, and the integral of z / (z + that)^2
 };
 
 }  // namespace detail

@@ -248,10 +248,10 @@ void pdfs(const std::string& name)
     const MicrofacetTables tables = tables_of(name);
     const DielectricTables glass = luts::dielectric_tables(name, TransmissionShadowing::beta);
     const Color3<double> one(1.0);
-    for (const double alpha : alphas)
+    for (const double alpha : {0.1, 0.25, 0.5, 0.75, 1.0})
     {
         const D d{alpha};
-        const std::string place = name + ", alpha " + std::to_string(alpha).substr(0, 3);
+        const std::string place = name + ", alpha " + std::to_string(alpha).substr(0, 4);
         const auto single = [&](const auto& wo) {
             return MicrofacetReflection<D, White>(d, White()).prepare(wo);
         };
@@ -265,7 +265,7 @@ void pdfs(const std::string& name)
                 return BoundedWalk<D, White>(d, White(), 1, tables).prepare(wo);
             },
             single, 1);
-        for (const double eta : {1.5, 2.0})
+        for (const double eta : {1.1, 1.33, 1.5, 2.0, 3.0})
             for (const double side : {1.0, -1.0})
             {
                 const auto once = [&](const auto& wo) {
@@ -273,13 +273,12 @@ void pdfs(const std::string& name)
                                          TransmissionShadowing::beta)
                         .prepare(wo);
                 };
-                const std::string from = place + ", index " + std::to_string(eta).substr(0, 3) +
+                const std::string from = place + ", index " + std::to_string(eta).substr(0, 4) +
                                          (side > 0 ? " from outside" : " from inside");
-                if (eta == 1.5)
-                    print_pdf(
-                        from + ", `walk`",
-                        [&](const auto& wo) { return DielectricWalk<D>(d, eta).prepare(wo); }, once,
-                        side);
+                print_pdf(
+                    from + ", `walk`",
+                    [&](const auto& wo) { return DielectricWalk<D>(d, eta).prepare(wo); }, once,
+                    side);
                 print_pdf(
                     from + ", `walk-bounded`",
                     [&](const auto& wo) {

@@ -106,9 +106,9 @@ private:
                                a * m,   ll,      lu,     l * m,  mu * mu, mu * m, m * m, ll * l,
                                ll * mu, lu * mu, al * l, ll * m, al * mu, lu * m};
         const Mask inside = eta < Real(1);
-        if (all<Real>(inside)) return sum(of, later_dielectric_shape[1], x);
-        sum(of, later_dielectric_shape[0], x);
-        if (!any<Real>(inside)) return;
+        const bool all_inside = all<Real>(inside);
+        sum(of, later_dielectric_shape[all_inside ? 1 : 0], x);
+        if (all_inside || !any<Real>(inside)) return;
         Real of_inside[values];
         sum(of_inside, later_dielectric_shape[1], x);
         for (int j = 0; j < values; ++j) of[j] = select(inside, of_inside[j], of[j]);

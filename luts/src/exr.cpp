@@ -79,6 +79,14 @@ void for_each_field(Info& info, const Visit& visit)
     visit("scale", info.scale);
 }
 
+// The same of the axes that most files have none of, nor any attribute.
+template <class Info, class Visit>
+void for_each_further_axis(Info& info, const Visit& visit)
+{
+    visit("axis_4", info.axis_4, "length_4", info.length_4);
+    visit("axis_5", info.axis_5, "length_5", info.length_5);
+}
+
 bool fits_half(const Table& table)
 {
     return std::all_of(table.values().begin(), table.values().end(),
@@ -99,6 +107,12 @@ Table read(const std::filesystem::path& file)
                                  ", this library reads definition " +
                                  std::to_string(table_definition) + ": bake it again");
     for_each_field(info, [&](const char* name, auto& value) { extract(header, name, value); });
+    for_each_further_axis(
+        info, [&](const char* axis, std::string& formula, const char* length, int& nodes) {
+            if (header.find(std::string("regain:") + axis) == header.end()) return;
+            extract(header, axis, formula);
+            extract(header, length, nodes);
+        });
     // Look-ups have them as floats.
     constexpr double smallest = std::numeric_limits<float>::min(),
                      largest = std::numeric_limits<float>::max() / 65536;
@@ -136,6 +150,12 @@ void write_table(const std::filesystem::path& file, const Table& table)
         header.channels().insert("Y", Imf::Channel(type));
         for_each_field(table.info(),
                        [&](const char* name, const auto& value) { insert(header, name, value); });
+        for_each_further_axis(table.info(), [&](const char* axis, const std::string& formula,
+                                                const char* length, int nodes) {
+            if (formula.empty()) return;
+            insert(header, axis, formula);
+            insert(header, length, nodes);
+        });
         insert(header, "depth", table.depth());
 
         const std::vector<Imath::half> halves(table.values().begin(), table.values().end());

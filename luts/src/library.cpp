@@ -80,7 +80,8 @@ bool has_axes_of(const std::string& name, const TableInfo& info)
 {
     const TableInfo known = bakeable_info(name);
     return info.axis_x == known.axis_x && info.axis_y == known.axis_y &&
-           info.axis_z == known.axis_z && info.transform == known.transform;
+           info.axis_z == known.axis_z && info.axis_4 == known.axis_4 &&
+           info.axis_5 == known.axis_5 && info.transform == known.transform;
 }
 
 Table load(Library& lib, const std::string& name)

@@ -38,6 +38,18 @@ Table::Table(TableInfo info, int width, int height, int depth, std::vector<float
                                     " values do not fill " + std::to_string(width) + " x " +
                                     std::to_string(height) + " x " + std::to_string(depth) +
                                     " nodes (at least 2 x 1 x 1)");
+    // Look-ups want two nodes along each axis that is there.
+    const auto fits = [](int length, const std::string& axis) {
+        return axis.empty() ? length == 1 : length >= 2 && length <= 4096;
+    };
+    if (!fits(_info.length_4, _info.axis_4) || !fits(_info.length_5, _info.axis_5) ||
+        (!_info.axis_5.empty() && _info.axis_4.empty()) ||
+        depth % (_info.length_4 * _info.length_5) != 0 ||
+        (!_info.axis_4.empty() && (height < 2 || depth < 2 * _info.length_4 * _info.length_5)))
+        throw std::invalid_argument("table " + name() + ": " + std::to_string(depth) +
+                                    " slices are not those of axes 4 and 5, of " +
+                                    std::to_string(_info.length_4) + " and " +
+                                    std::to_string(_info.length_5) + " nodes");
     _stored.reserve(_values.size());
     for (float v : _values)
     {

@@ -7,9 +7,11 @@
 
 #pragma once
 
+#include <regain/closures/grid_view.h>
 #include <regain/closures/table.h>
 #include <regain/luts/export.h>
 
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -32,6 +34,8 @@ struct TableInfo
                                          ///< and of R_later
     std::string side;  ///< "outside", eta_o >= 1, or "inside"; empty without transmission
     std::string axis_x, axis_y, axis_z;  ///< formula of each axis; empty for one that is not there
+    std::string axis_4, axis_5;          ///< the same of axes that the files of few tables have
+    int length_4 = 1, length_5 = 1;      ///< nodes along these, 1 where they are not there
     std::string transform;   ///< "ln" where the numbers are logarithms of the quantity; else empty
     std::string method;      ///< how the numbers came about, with node counts
     int nodes = 0;           ///< of the quadrature, along each piece
@@ -44,14 +48,16 @@ struct TableInfo
 /// "ggx_E_ss", "gtr_1.3_E_S_beta_inside": the name of its file without extension.
 REGAIN_LUTS_API std::string table_name(const TableInfo& info);
 
-/// Values at the nodes, x fastest, z slowest, and their 16-bit form.
+/// Values at the nodes, x fastest, axis 5 slowest, and their 16-bit form. Axes 4 and 5 make further
+/// slices of z: the depth counts those of all three.
 class REGAIN_LUTS_API Table
 {
 public:
     Table() = default;
 
-    /// `values` has width * height * depth entries within the range of the 16-bit form; throws
-    /// std::invalid_argument otherwise. An axis that is not there has length 1.
+    /// `values` has width * height * depth entries within the range of the 16-bit form, and the
+    /// lengths of axes 4 and 5 divide the depth; throws std::invalid_argument otherwise. An axis
+    /// that is not there has length 1.
     Table(TableInfo info, int width, int height, int depth, std::vector<float> values);
 
     const TableInfo& info() const { return _info; }
@@ -63,10 +69,29 @@ public:
 
     /// What closures read; valid as long as the table lives and stays where it is.
     TableView view() const;
+    /// The same of a table of 4 or 5 axes; throws std::logic_error if it has not as many.
+    template <int Axes>
+    GridView<Axes> grid() const
+    {
+        static_assert(Axes == 4 || Axes == 5);
+        if (axes() != Axes) throw std::logic_error("table " + name() + " has other axes");
+        GridView<Axes> v;
+        v.data = _stored.data();
+        v.size[0] = _width;
+        v.size[1] = _height;
+        v.size[2] = _depth / (_info.length_4 * _info.length_5);
+        v.size[3] = _info.length_4;
+        if constexpr (Axes == 5) v.size[4] = _info.length_5;
+        v.offset = static_cast<float>(_info.offset);
+        v.scale = static_cast<float>(_info.scale);
+        return v;
+    }
 
     std::string name() const { return table_name(_info); }
 
 private:
+    int axes() const { return _info.length_5 > 1 ? 5 : _info.length_4 > 1 ? 4 : 3; }
+
     TableInfo _info;
     int _width = 0, _height = 0, _depth = 0;
     std::vector<float> _values;

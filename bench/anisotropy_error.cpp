@@ -3,12 +3,12 @@
 
 // How far the compensation of anisotropic lobes is off: the tables of docs/methods.md, Anisotropy.
 //
-//   anisotropy_error
+//   anisotropy_error [ggx] [beckmann] [std] [gtr] [glass]
 //
 // Largest |1 - E| of the white furnace, F = 1, by quadrature through eval, over widths of which the
 // wider is 0.01 to 1, cosines from 0.01 to 1, azimuths from the one axis to the other, and either
-// axis the wider. Gains are all the same where F = 1, so `turquin` stands for them. A quarter of an
-// hour on one core.
+// axis the wider. Gains are all the same where F = 1, so `turquin` stands for them. Half an hour on
+// one core.
 
 #include <regain/closures/beckmann.h>
 #include <regain/closures/compensated.h>
@@ -26,6 +26,7 @@
 #include <cstdio>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -40,45 +41,60 @@ constexpr double cosines[] = {0.01, 0.02, 0.06, 0.15, 0.3, 0.5, 0.7, 0.9, 1};
 constexpr double azimuths[] = {0, 0.2, 0.4, 0.6, 0.8, 0.9, 1};
 
 // Sums f(wi), the lobe's share given by the closure at wi, over directions: over the stretched
-// slopes of the half-vector, with nodes gathered towards grazing wi.
+// slopes of the half-vector, with nodes gathered towards grazing wi, across the azimuth of wo, and
+// next to the axes; and at slopes of 1, where long tails are.
 template <class F>
 double integral(const Vec3<double>& wo, double ax, double ay, const F& f)
 {
-    static const luts::QuadratureRule rule = luts::gauss_legendre(36);
+    static const luts::QuadratureRule rule = luts::gauss_legendre(24);
     double sum = 0;
-    const double start = std::atan2(wo.y * ay, wo.x * ax);
-    for (int quarter = 0; quarter < 4; ++quarter)
-        for (std::size_t j = 0; j < rule.x.size(); ++j)
+    const auto along = [&](double phi, double dphi) {
+        const double p = ax * std::cos(phi), q = ay * std::sin(phi);
+        const double a = p * p + q * q, b = (p * wo.x + q * wo.y) / wo.z;
+        const double root = std::sqrt(b * b + a);
+        const double edge = b > 0 ? (b + root) / a : 1 / (root - b);
+        const double bend = std::max({1.0, 1 / std::sqrt(a), 1 / std::sqrt(ax * ay)});
+        const auto at = [&](double rho, double drho) {
+            const double h_z = 1 / std::sqrt(1 + rho * rho * a);
+            const Vec3<double> h(rho * p * h_z, rho * q * h_z, h_z);
+            const double facing = wo.dot(h);
+            const Vec3<double> wi = h * (2 * facing) - wo;
+            if (facing <= 0 || wi.z <= 0) return;
+            sum += f(wi) * 4 * facing * h_z * h_z * h_z * ax * ay * dphi * rho * drho;
+        };
+        for (std::size_t i = 0; i < rule.x.size(); ++i)
         {
-            const double x = rule.x[j], offset = 0.5 * pi * x * x * x;
-            const double phi =
-                start + (quarter < 2 ? 0.5 : -0.5) * pi + (quarter % 2 ? -offset : offset);
-            const double p = ax * std::cos(phi), q = ay * std::sin(phi);
-            const double a = p * p + q * q, b = (p * wo.x + q * wo.y) / wo.z;
-            const double root = std::sqrt(b * b + a);
-            const double edge = b > 0 ? (b + root) / a : 1 / (root - b);
-            const double area = ax * ay * rule.weight[j] * 1.5 * pi * x * x;
-            const auto at = [&](double rho, double drho) {
-                const double h_z = 1 / std::sqrt(1 + rho * rho * a);
-                const Vec3<double> h(rho * p * h_z, rho * q * h_z, h_z);
-                const double facing = wo.dot(h);
-                const Vec3<double> wi = h * (2 * facing) - wo;
-                if (facing <= 0 || wi.z <= 0) return;
-                sum += f(wi) * 4 * facing * h_z * h_z * h_z * area * rho * drho;
-            };
-            for (std::size_t i = 0; i < rule.x.size(); ++i)
+            const double y = rule.x[i], y3 = y * y * y, slope = 3 * y * y * rule.weight[i];
+            if (edge <= 1)
             {
-                const double y = rule.x[i], y3 = y * y * y, slope = 3 * y * y * rule.weight[i];
-                if (edge <= 1)
-                {
-                    at(edge * (1 - y3), edge * slope);
-                    continue;
-                }
-                at(y, rule.weight[i]);
-                const double rho = 1 / (1 / edge + (1 - 1 / edge) * y3);
-                at(rho, rho * rho * (1 - 1 / edge) * slope);
+                at(edge * (1 - y3), edge * slope);
+                continue;
             }
+            at(y, rule.weight[i]);
+            const bool last = edge <= bend;
+            const double range = std::log(std::min(edge, bend)),
+                         rho = std::exp(range * (last ? 1 - y3 : y));
+            at(rho, rho * range * (last ? slope : rule.weight[i]));
+            if (last) continue;
+            const double outer = bend / edge, w = outer + (1 - outer) * y3;
+            at(bend / w, bend / (w * w) * (1 - outer) * slope);
         }
+    };
+    const double across = std::atan2(wo.y * ay, wo.x * ax) + 0.5 * pi;
+    std::vector<double> limits{across, across + pi, 0, 0.5 * pi, pi, 1.5 * pi};
+    for (double& phi : limits) phi -= 2 * pi * std::floor(phi / (2 * pi));
+    std::sort(limits.begin(), limits.end());
+    limits.push_back(limits.front() + 2 * pi);
+    for (std::size_t k = 0; k + 1 < limits.size(); ++k)
+    {
+        const double length = limits[k + 1] - limits[k];
+        for (std::size_t j = 0; j < rule.x.size() && length > 1e-7; ++j)
+        {
+            const double x = rule.x[j];
+            along(limits[k] + length * x * x * x * (10 - 15 * x + 6 * x * x),
+                  length * 30 * x * x * (1 - x) * (1 - x) * rule.weight[j]);
+        }
+    }
     return sum;
 }
 
@@ -111,6 +127,7 @@ void report(const std::string& name, const std::string& label,
 {
     using Lobe = MicrofacetReflection<Distribution, ConstantFresnel<double>>;
     MicrofacetTables tables = luts::microfacet_tables(name);
+    luts::add_anisotropy(tables, name);
     bool has_tail = true;
     try
     {
@@ -243,20 +260,28 @@ void report_glass(const std::string& name, const std::string& label)
 
 }  // namespace
 
-int main()
+int main(int argc, char** argv)
 {
+    const auto wanted = [&](const std::string& what) {
+        return argc == 1 || std::find(argv + 1, argv + argc, what) != argv + argc;
+    };
     std::printf("| lobe | ratio | one width | gains | `kulla-conty` | `tail` |\n");
     std::printf("|---|---|---|---|---|---|\n");
-    report<GGX<double>>("ggx", "GGX", [](double x, double y) { return GGX<double>(x, y); });
-    report<Beckmann<double>>("beckmann", "Beckmann",
-                             [](double x, double y) { return Beckmann<double>(x, y); });
-    for (const double gamma : {1.7, 3.0, 10.0})
-        report<STD<double>>("std", "STD " + std::to_string(gamma).substr(0, 3),
-                            [=](double x, double y) { return STD<double>(x, y, gamma); });
-    for (const double gamma : {1.0, 1.7, 3.0})
-        report<GTR<double>>("gtr", "GTR " + std::to_string(gamma).substr(0, 3),
-                            [=](double x, double y) { return GTR<double>(x, y, gamma); });
+    if (wanted("ggx"))
+        report<GGX<double>>("ggx", "GGX", [](double x, double y) { return GGX<double>(x, y); });
+    if (wanted("beckmann"))
+        report<Beckmann<double>>("beckmann", "Beckmann",
+                                 [](double x, double y) { return Beckmann<double>(x, y); });
+    for (const double gamma : {1.55, 1.7, 3.0, 10.0})
+        if (wanted("std"))
+            report<STD<double>>("std", "STD " + std::to_string(gamma).substr(0, 4),
+                                [=](double x, double y) { return STD<double>(x, y, gamma); });
+    for (const double gamma : {0.3, 1.0, 1.7, 3.0, 8.0})
+        if (wanted("gtr"))
+            report<GTR<double>>("gtr", "GTR " + std::to_string(gamma).substr(0, 3),
+                                [=](double x, double y) { return GTR<double>(x, y, gamma); });
 
+    if (!wanted("glass")) return 0;
     std::printf("\n| glass | eta_o | ratio | one width | gain |\n|---|---|---|---|---|\n");
     report_glass<GGX<double>>("ggx", "GGX");
     report_glass<Beckmann<double>>("beckmann", "Beckmann");

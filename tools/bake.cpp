@@ -31,16 +31,18 @@ using Names = std::vector<std::string>;
 
 constexpr const char* help_footer = R"help(
 TABLE is DISTRIBUTION_QUANTITY: ggx, beckmann, gtr or std; E_ss, E_avg, falloff, dip, balance, q_ms,
-mu_ms, spread, forward or tilt. Those of dielectrics are DISTRIBUTION_QUANTITY_SHADOWING_SIDE: E_S or
-R_share; correlated or beta; outside or inside, and DISTRIBUTION_R_later_SIDE; there gtr and std take
-one gamma, gtr_1.3_E_S_beta_inside. Without names those of ggx are baked that are compiled in. They
-take twenty seconds; on two cores the mirror tables of gtr or std take some minutes, and so do the ten
-of dielectrics of a distribution, or of one gamma of it.
+mu_ms, spread, forward or tilt, and of gtr and std anisotropy. Those of dielectrics are
+DISTRIBUTION_QUANTITY_SHADOWING_SIDE: E_S or R_share; correlated or beta; outside or inside, and
+DISTRIBUTION_R_later_SIDE; there gtr and std take one gamma, gtr_1.3_E_S_beta_inside. Without names
+those of ggx are baked that are compiled in. They take twenty seconds; on two cores the mirror tables
+of gtr or std take some minutes, and so do the ten of dielectrics of a distribution, or of one gamma
+of it.
 
 Tables are baked by deterministic quadrature on all cores, one after the other, and each is written,
 whole, as soon as it is done: after Ctrl-C those that are listed are there, all others are as they
 were. The error that is reported is the largest of interpolation between the nodes, in the range it
-is promised for: alpha from 5e-4 and mu from 7e-4 on of gtr and std, mu from 0.018 on of dielectrics.
+is promised for: alpha from 5e-4 and mu from 7e-4 on of gtr and std, both from 5e-3 on of their
+anisotropy, mu from 0.018 on of dielectrics.
 
 --verify bakes again and compares: the tables compiled into this program must hold the very same
 16-bit numbers, EXR files values within 1e-6, or one step where they are rounded. Exit code 1 where

@@ -37,9 +37,7 @@ std::vector<TableCheck> check_table(const std::string& name, const std::vector<S
             checks.push_back(
                 check_spots(name, builtin, spot_tolerance(name), "compiled in", spots));
         for (const ShippedFile& f : files)
-            if (f.table.name() == name)
-                checks.push_back(
-                    check_spots(name, f.table.view(), spot_tolerance(f.table), f.file, spots));
+            if (f.table.name() == name) checks.push_back(check_spots(f.table, f.file, spots));
         return checks;
     }
     const luts::Table baked = bake_showing(name, guard);

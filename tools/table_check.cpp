@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace regain::tools {
 namespace {
@@ -72,6 +73,8 @@ void compare_headers(TableCheck& check, const luts::TableInfo& shipped,
     text("axis_x", shipped.axis_x, baked.axis_x);
     text("axis_y", shipped.axis_y, baked.axis_y);
     text("axis_z", shipped.axis_z, baked.axis_z);
+    text("axis_4", shipped.axis_4, baked.axis_4);
+    text("axis_5", shipped.axis_5, baked.axis_5);
     text("transmission_shadowing", shipped.transmission_shadowing, baked.transmission_shadowing);
     text("side", shipped.side, baked.side);
     text("transform", shipped.transform, baked.transform);
@@ -79,6 +82,8 @@ void compare_headers(TableCheck& check, const luts::TableInfo& shipped,
     text("error_kind", shipped.error_kind, baked.error_kind);
     number("gamma", shipped.gamma, baked.gamma, 0);
     number("nodes", shipped.nodes, baked.nodes, 0);
+    number("length_4", shipped.length_4, baked.length_4, 0);
+    number("length_5", shipped.length_5, baked.length_5, 0);
     number("offset", shipped.offset, baked.offset, 0);
     number("scale", shipped.scale, baked.scale, 0);
     number("error", shipped.error, baked.error, error_tolerance);
@@ -143,8 +148,12 @@ SpotTolerance spot_tolerance(const luts::Table& table)
     return {2 * table.info().error + 1e-4, table.info().error_kind == "relative"};
 }
 
-TableCheck check_spots(const std::string& name, const TableView& shipped,
-                       const SpotTolerance& tolerance, const std::string& against, int spots)
+namespace {
+
+// `axes` are 1 to 3, or 5; `look_up` answers the table's number at a place.
+TableCheck compare_spots(const std::string& name, int axes,
+                         const std::function<double(const luts::TablePoint&)>& look_up,
+                         const SpotTolerance& tolerance, const std::string& against, int spots)
 {
     TableCheck check;
     check.table = name;
@@ -153,7 +162,7 @@ TableCheck check_spots(const std::string& name, const TableView& shipped,
     // Of walks it takes as many as for a node, and a while.
     const luts::TableInfo info = luts::bakeable_info(name);
     const bool walked = info.method.find("walks") != std::string::npos;
-    const int accuracy = walked ? info.nodes : shipped.depth > 1 ? 32 : 64;
+    const int accuracy = walked ? info.nodes : axes == 5 ? 16 : axes == 3 ? 32 : 64;
     if (walked) spots = std::min(spots, 10);
     RandomNumbers random(0);
     while (check.numbers < spots)
@@ -161,21 +170,48 @@ TableCheck check_spots(const std::string& name, const TableView& shipped,
         luts::TablePoint at;
         at.x = random.next<double>();
         at.y = random.next<double>();
-        if (shipped.depth > 1) at.z = random.next<double>();
+        if (axes > 2) at.z = random.next<double>();
+        if (axes > 3) at.v = random.next<double>();
+        if (axes > 3) at.w = random.next<double>();
         if (!luts::is_error_promised(name, at)) continue;
         double exact = luts::exact_value(name, at, accuracy);
-        double value = luts::interpolated(shipped, at);
+        double value = look_up(at);
         if (logarithm) exact = std::exp(exact), value = std::exp(value);
         if (tolerance.relative && exact < luts::smallest_promised(name)) continue;
         if (tolerance.relative) value = std::min(value, luts::greatest_answer(name));
         const double off = std::abs(tolerance.relative ? value / exact - 1 : value - exact);
-        const std::string place =
-            shipped.depth > 1 ? fmt::format("x = {:.4f}, y = {:.4f}, z = {:.4f}", at.x, at.y, at.z)
-            : shipped.height > 1 ? fmt::format("x = {:.4f}, y = {:.4f}", at.x, at.y)
-                                 : fmt::format("x = {:.4f}", at.x);
+        std::string place = fmt::format("x = {:.4f}", at.x);
+        if (axes > 1) place += fmt::format(", y = {:.4f}", at.y);
+        if (axes > 2) place += fmt::format(", z = {:.4f}", at.z);
+        if (axes > 3) place += fmt::format(", v = {:.4f}, w = {:.4f}", at.v, at.w);
         compare(check, place, value, exact, off, off <= tolerance.largest);
     }
     return check;
+}
+
+}  // namespace
+
+TableCheck check_spots(const std::string& name, const TableView& shipped,
+                       const SpotTolerance& tolerance, const std::string& against, int spots)
+{
+    return compare_spots(
+        name,
+        shipped.depth > 1    ? 3
+        : shipped.height > 1 ? 2
+                             : 1,
+        [&](const luts::TablePoint& at) { return luts::interpolated(shipped, at); }, tolerance,
+        against, spots);
+}
+
+TableCheck check_spots(const luts::Table& shipped, const std::string& against, int spots)
+{
+    const SpotTolerance tolerance = spot_tolerance(shipped);
+    if (shipped.info().axis_5.empty())
+        return check_spots(shipped.name(), shipped.view(), tolerance, against, spots);
+    return compare_spots(
+        shipped.name(), 5,
+        [&](const luts::TablePoint& at) { return luts::interpolated(shipped, at); }, tolerance,
+        against, spots);
 }
 
 }  // namespace regain::tools

@@ -55,12 +55,15 @@ struct SpotTolerance
 /// A little more than the error that the compiled-in table was baked with: what a damaged or stale
 /// table shows is far larger.
 SpotTolerance spot_tolerance(const std::string& table);
-/// Twice the error that the file says: that of three axes is taken in the middle of cells only.
+/// Twice the error that the file says: that of three axes and more is taken in the middle of cells
+/// only.
 SpotTolerance spot_tolerance(const luts::Table& table);
 
 /// At `spots` places spread over the part of the table that its error is promised for; at most 10
 /// where an exact number takes random walks.
 TableCheck check_spots(const std::string& name, const TableView& shipped,
                        const SpotTolerance& tolerance, const std::string& against, int spots);
+/// The same of a file, with any number of axes and its own tolerance.
+TableCheck check_spots(const luts::Table& shipped, const std::string& file, int spots);
 
 }  // namespace regain::tools

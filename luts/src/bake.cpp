@@ -4,6 +4,7 @@
 #include <regain/luts/bake.h>
 
 #include "definition.h"
+#include "grid_bake.h"
 #include "parallel.h"
 
 #include <Imath/half.h>
@@ -295,6 +296,7 @@ std::vector<std::string> shipped_tables()
         for (const char* quantity : {"E_ss", "falloff", "dip", "E_avg", "balance", "q_ms", "mu_ms",
                                      "spread", "forward", "tilt"})
             names.push_back(std::string(distribution) + "_" + quantity);
+    append(names, {"gtr_anisotropy", "std_anisotropy"});
     append(names, dielectric_table_names("ggx"));
     append(names, dielectric_table_names("beckmann"));
     append(names, later_split_table_names("ggx"));
@@ -343,12 +345,15 @@ TableInfo bakeable_info(const std::string& name) { return Definition::of(name).i
 double exact_value(const std::string& name, const TablePoint& at, int nodes)
 {
     const Definition d = Definition::of(name);
+    if (d.is_grid()) return d.family.plane({at.x}, {at.y}, at.z, at.v, at.w, nodes).values.front();
     return d.value(d.family.row({at.x}, at.y, at.z, nodes)[0]);
 }
 
 bool is_error_promised(const std::string& name, const TablePoint& at)
 {
-    return Definition::of(name).family.promised(at.x, at.y, at.z);
+    const Definition d = Definition::of(name);
+    if (d.is_grid()) return d.family.plane({at.x}, {at.y}, at.z, at.v, at.w, 2).promised.front();
+    return d.family.promised(at.x, at.y, at.z);
 }
 
 double smallest_promised(const std::string& name) { return Definition::of(name).smallest_promised; }
@@ -363,9 +368,16 @@ double interpolated(const TableView& table, const TablePoint& at)
     return table.height > 1 ? table.at(at.x, at.y) : table.at(at.x);
 }
 
+double interpolated(const Table& table, const TablePoint& at)
+{
+    const double x[] = {at.x, at.y, at.z, at.v, at.w};
+    return table.info().axis_5.empty() ? interpolated(table.view(), at) : table.grid<5>().at(x);
+}
+
 Table bake(const std::string& name, const BakeProgress& progress)
 {
     const Definition d = Definition::of(name);
+    if (d.is_grid()) return bake_grid(d, progress);
     const std::shared_ptr<const Lattice> lattice = lattice_of(d, progress);
     Fit fit(d, *lattice);
     if (d.fitted) fit.level();

@@ -3,6 +3,9 @@
 
 #include "definition.h"
 
+#include "anisotropy.h"
+
+#include <regain/closures/anisotropy.h>
 #include <regain/closures/dielectric_tables.h>
 #include <regain/closures/fresnel_moments.h>
 #include <regain/closures/tail.h>
@@ -47,6 +50,14 @@ constexpr int inside_sum_alphas = 48, inside_sum_indices = 63;
 // STD is as curved there at alpha 1, and nobody ships tables of one gamma.
 constexpr int fine_inside_cosines = 3 * (table_nodes - 1) + 1, outside_beta_indices = 48;
 
+// What anisotropy changes is smooth along all five axes; of GTR it is the more, and most where its
+// weight moves from long slopes to short ones.
+struct AnisotropyNodes
+{
+    int cosines, azimuths, widths, ratios, tails;
+};
+constexpr AnisotropyNodes gtr_anisotropy{18, 6, 10, 9, 24}, std_anisotropy{16, 6, 14, 8, 12};
+
 // Row 0 is the limit of vanishing alpha at fixed x, which alpha 0 itself does not have.
 constexpr double smallest_alpha = 1e-6;
 
@@ -82,6 +93,10 @@ double mu_of_tail_cosine(double x, double alpha)
     const double angle = solve(x, 0, 0.5 * std::acos(-1.0),
                                [=](double t) { return tail_cosine(std::sin(t), alpha); });
     return std::sin(angle);
+}
+double ratio_of_coordinate(double v)
+{
+    return std::exp(3 * std::expm1(v * std::log1p(std::log(20) / 3)));
 }
 double eta_of_coordinate(double z, bool inside, bool near_index)
 {
@@ -130,7 +145,7 @@ bool is_tailed(const std::string& distribution)
     throw std::invalid_argument(
         "no table is called '" + name + "'" + why +
         "; there are DISTRIBUTION_QUANTITY with ggx, beckmann, gtr, std and E_ss, E_avg, falloff, "
-        "dip, balance, q_ms, mu_ms, spread, forward, tilt, and "
+        "dip, balance, q_ms, mu_ms, spread, forward, tilt, of gtr and std anisotropy, and "
         "DISTRIBUTION_QUANTITY_SHADOWING_SIDE with E_S, R_share; correlated, beta; outside, "
         "inside, and DISTRIBUTION_R_later_SIDE; in the latter two gtr and std take their gamma: "
         "gtr_1.3_E_S_beta_inside");
@@ -265,6 +280,29 @@ std::vector<Family::Values> Family::row(const SlopeLaw& law, const std::vector<d
         }
     }
     return values;
+}
+
+Family::Plane Family::plane(const std::vector<double>& xs, const std::vector<double>& ys, double z,
+                            double v, double w, int nodes) const
+{
+    Plane plane;
+    const double wider = alpha_at(z);
+    const AnisotropicLobe lobe(distribution, wider, ratio_of_coordinate(v), tail_at(w));
+    std::vector<double> mu, isotropic;
+    for (double x : xs)
+    {
+        // At mu = 0 there is no lobe; close by is its limit.
+        mu.push_back(mu_of_tail_cosine(std::max(std::sqrt(x), 0.02), lobe.root_mean_square()));
+        isotropic.push_back(lobe.isotropic(mu.back(), nodes));
+    }
+    for (double y : ys)
+        for (std::size_t i = 0; i < xs.size(); ++i)
+        {
+            const double share = 5 * y / (8 - 3 * y);
+            plane.values.push_back(lobe.correction(mu[i], share, nodes, isotropic[i]));
+            plane.promised.push_back(wider >= 5e-3 && lobe.cosine(mu[i], share) >= 5e-3);
+        }
+    return plane;
 }
 
 bool Family::promised(double x, double y, double z, double share) const
@@ -415,6 +453,39 @@ Definition Definition::of(const std::string& name)
             return d;
         }
 
+    if (tailed && rest == "anisotropy")
+    {
+        const bool gtr = d.family.distribution == "gtr";
+        const AnisotropyNodes& n = gtr ? gtr_anisotropy : std_anisotropy;
+        d.family.kind = Family::Kind::anisotropy;
+        d.fitted = true;
+        d.value = first;
+        d.greatest = std::numeric_limits<double>::infinity();
+        d.width = n.cosines;
+        d.height = n.azimuths;
+        d.depth = n.widths;
+        info.length_4 = n.ratios;
+        info.length_5 = n.tails;
+        info.quantity = rest;
+        info.axis_x =
+            "(3/4 (1 + ln((k + s) / (1 + s)) / ln(1 / k)) + 1/4 s / (1 + s))^2, "
+            "s = R z / |(X, Y)|, k = 0.004 sqrt(R)";
+        info.axis_y = "8 Y^2 / (5 X^2 + 8 Y^2), Y along the narrower axis";
+        info.axis_z = info.distribution + "_width(alpha of the wider axis)";
+        info.axis_4 = "ln(1 + ln(wider / narrower) / 3) / ln(1 + ln(20) / 3)";
+        info.axis_5 = info.distribution + "_tail(gamma)";
+        info.transform = "ln";
+        info.method = "Gauss-Legendre over slopes, nodes levelled for the least largest error";
+        info.error_kind = "relative";
+        d.node_accuracy = 16;
+        d.check_accuracy = 12;
+        info.nodes = d.node_accuracy;
+        info.scale = 0x1p-11;
+        info.offset = -4;
+        d.lowest = info.offset;
+        d.highest = info.offset + 65535 * info.scale;
+        return d;
+    }
     if (tailed)
     {
         char* end = nullptr;

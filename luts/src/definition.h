@@ -7,6 +7,8 @@
 #include <regain/luts/slope_law.h>
 
 #include <array>
+#include <string>
+#include <vector>
 
 REGAIN_NAMESPACE_BEGIN
 namespace luts {
@@ -21,6 +23,7 @@ struct Family
         later,        // q_ms, mu_ms
         shape,        // spread, forward, tilt
         split,        // R_later
+        anisotropy,   // anisotropy, over five axes
         dielectric    // E^R, correlated E^T, E^T in the beta form, w F(mu)
     };
     using Values = std::array<double, 4>;
@@ -49,6 +52,16 @@ struct Family
     std::vector<Values> row(const SlopeLaw& law, const std::vector<double>& x, double y, double z,
                             int nodes) const;
 
+    /// Of five axes: the values at every x and y of the rest, x fastest, and which are in the range
+    /// that the error is promised for.
+    struct Plane
+    {
+        std::vector<double> values;
+        std::vector<bool> promised;
+    };
+    Plane plane(const std::vector<double>& x, const std::vector<double>& y, double z, double v,
+                double w, int nodes) const;
+
     /// Is (x, y, z) in the range that the error is promised for? Of dielectrics `share` of the
     /// least cosine is the bound.
     bool promised(double x, double y, double z, double share = 1) const;
@@ -58,8 +71,8 @@ struct Family
 struct Definition
 {
     Family family;
-    TableInfo info;  // all but the error
-    int width, height, depth;
+    TableInfo info;                // all but the error
+    int width, height, depth;      // axes 4 and 5: info
     bool fitted;                   // levelled for the least largest relative error; else exact
     double lowest, highest;        // that a node can be
     double greatest = 1;           // that look-ups answer
@@ -71,6 +84,8 @@ struct Definition
 
     /// Throws std::invalid_argument, which says what names there are.
     static Definition of(const std::string& name);
+
+    bool is_grid() const { return family.kind == Family::Kind::anisotropy; }
 };
 
 }  // namespace luts

@@ -15,8 +15,9 @@ REGAIN_NAMESPACE_BEGIN
 namespace luts {
 namespace {
 
-// No table comes near this; a header that says so is broken, and is not worth the memory.
-constexpr std::int64_t largest_side = 4096;
+// No table comes near this; a header that says so is broken, and is not worth the memory. Of more
+// axes than two all slices lie below each other.
+constexpr std::int64_t largest_width = 4096, largest_height = 65536, most_nodes = 1 << 24;
 
 // The types of the attributes that tables have, and how many bytes such a value takes; 0: any
 // number. Others, such as a picture for a preview, may hold sizes of their own.
@@ -76,10 +77,12 @@ void require_size(Reader& in)
     const std::int64_t left = in.number(), top = in.number(), right = in.number(),
                        bottom = in.number();
     const std::int64_t width = right - left + 1, height = bottom - top + 1;
-    if (width < 2 || height < 1 || width > largest_side || height > largest_side)
-        throw std::runtime_error("it has " + std::to_string(width) + " x " +
-                                 std::to_string(height) + " nodes; 2 x 1 to " +
-                                 std::to_string(largest_side) + " a side are accepted");
+    if (width < 2 || height < 1 || width > largest_width || height > largest_height ||
+        width * height > most_nodes)
+        throw std::runtime_error(
+            "it has " + std::to_string(width) + " x " + std::to_string(height) + " nodes; 2 to " +
+            std::to_string(largest_width) + " by 1 to " + std::to_string(largest_height) +
+            " a side are accepted, " + std::to_string(most_nodes) + " in all");
 }
 
 // Name, type and sampling of each, and an empty name: OpenEXR goes by that, whatever `size` says.

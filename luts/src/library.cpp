@@ -28,6 +28,7 @@ struct Library
 {
     std::mutex mutex;
     std::map<std::string, std::unique_ptr<const Table>> tables;
+    std::map<std::string, std::unique_ptr<const GridView<5>>> grids;
     std::vector<fs::path> folders, loaded;
 };
 
@@ -127,6 +128,16 @@ const Table& loaded(const std::string& name)
     return *table;
 }
 
+const GridView<5>* loaded_grid(const std::string& name)
+{
+    const Table& table = loaded(name);
+    Library& lib = library();
+    const std::lock_guard<std::mutex> lock(lib.mutex);
+    auto& grid = lib.grids[name];
+    if (!grid) grid = std::make_unique<const GridView<5>>(table.grid<5>());
+    return grid.get();
+}
+
 bool is_logarithmic(const Table& table) { return table.info().transform == "ln"; }
 
 }  // namespace
@@ -172,6 +183,12 @@ void add_later_bounces(MicrofacetTables& tables, const std::string& distribution
 void add_balance(MicrofacetTables& tables, const std::string& distribution)
 {
     tables.balance = table_named(distribution + "_balance");
+}
+
+void add_anisotropy(MicrofacetTables& tables, const std::string& distribution)
+{
+    if (distribution == "ggx" || distribution == "beckmann") return;
+    tables.anisotropy = loaded_grid(distribution + "_anisotropy");
 }
 
 void add_later_shape(MicrofacetTables& tables, const std::string& distribution)

@@ -221,7 +221,9 @@ private:
     }
     static MicrofacetTables mirror_tables(const std::string& distribution)
     {
-        return luts::microfacet_tables(distribution);
+        MicrofacetTables tables = luts::microfacet_tables(distribution);
+        luts::add_anisotropy(tables, distribution);
+        return tables;
     }
     static DielectricTables glass_tables(const std::string& distribution,
                                          TransmissionShadowing shadowing)

@@ -28,7 +28,19 @@
 ///
 /// The numbers depend on how long the tail of the distribution is, tail_length() in distribution.h:
 /// 0 of Beckmann, 1 of GGX, 1 / (gamma - 1) of STD, which lies between these and beyond. GTR is no
-/// stretched isotropic law of the same alpha, and takes GGX's for want of its own.
+/// stretched isotropic law of the same alpha, and takes GGX's if it has nothing better.
+///
+/// Better is the table `anisotropy` of MicrofacetTables, for the distributions with a tail. With it
+///
+///   E_ss(w; ax, ay) = E_ss(mu'; R) exp(c),    a = R above,  c over
+///     the square of the cosine axis of table.h, at mu' and R
+///     8 X^2 / (8 X^2 + 5 Y^2), if x is the narrower axis
+///     the width axis, at the wider of both
+///     ln(1 + l / 3) / ln(1 + ln(20) / 3), l = ln(wider / narrower); at most 1
+///     the tail axis
+///
+/// c is 0 where the widths are equal, the same with the axes exchanged, and smooth: of masking,
+/// which is what varies most, mu' leaves nothing.
 
 #pragma once
 
@@ -59,6 +71,15 @@ struct TailLength<Distribution,
 };
 
 constexpr int anisotropy_terms = 9;
+
+/// Coordinate of the ratio of two widths, at least 1, along the fourth axis of `anisotropy`; it may
+/// be beyond 1. A quotient of logarithms as above.
+template <class Real>
+Real ratio_coordinate(const Real& ratio)
+{
+    constexpr double inv_widest = 1 / 0.69243563973380040;  // of ln(1 + ln(20) / 3)
+    return log1p(log(ratio) * constant<Real>(1.0 / 3)) * constant<Real>(inv_widest);
+}
 
 /// k_1, k_2, k_3 above: of a tail of length 0 and of length 1; and, for l in between and beyond,
 /// P and Q of  (1 - l) k(0) + l k(1) + l (1 - l) (P + l Q).
@@ -131,6 +152,10 @@ public:
             _c[i] = R * (k(0) + R * (k(1) + R * k(2)));
         }
         _d = (_x - _y) * (_x + _y) / (_x * _x + _y * _y);
+        if (!this->has_tail()) return;
+        const Real wider = detail::max(_x, _y), narrower = detail::min(_x, _y);
+        _width = this->width_of(wider);
+        _ratio = detail::ratio_coordinate<Real>(wider / narrower);
     }
 
     Real alpha_x() const { return _x; }
@@ -173,6 +198,7 @@ public:
     Real albedo(const MicrofacetTables& tables, const Vec3<Real>& w) const
     {
         if (_isotropic) return tables.albedo(*this, w.z);
+        if (tables.anisotropy && this->has_tail()) return corrected_albedo(tables, w);
         const Place p = place(w);
         return tables.albedo(p.axes, p.mu);
     }
@@ -204,6 +230,23 @@ private:
     // The numbers are of gamma 1.7 and above.
     static constexpr double longest_tail = 1 / 0.7;
 
+    // By the table `anisotropy`.
+    Real corrected_albedo(const MicrofacetTables& tables, const Vec3<Real>& w) const
+    {
+        const Real X = _x * w.x, Y = _y * w.y, X2 = X * X, Y2 = Y * Y, tangential = X2 + Y2;
+        const Real mu =
+            detail::select(_x == _y, w.z, stretched_cosine_of(this->alpha() * w.z, tangential));
+        // Along the normal y is anything.
+        const MaskOf<Real> x_is_narrower = _x < _y;
+        const Real narrower = Real(8) * detail::select(x_is_narrower, X2, Y2),
+                   wider = Real(5) * detail::select(x_is_narrower, Y2, X2);
+        const Real y = narrower / detail::max(narrower + wider, detail::constant<Real>(1e-36));
+        const Real x = this->cosine(mu);
+        const Real at[] = {x * x, y, _width, _ratio, this->tail()};
+        return detail::min(tables.albedo(*this, mu) * detail::exp(tables.anisotropy->at(at)),
+                           Real(1));
+    }
+
     // Cosine of a direction whose tangent, squared, is tangential / z^2.
     static Real stretched_cosine_of(const Real& z, const Real& tangential)
     {
@@ -213,6 +256,7 @@ private:
     Real _x, _y;
     Real _d = Real(0);
     Real _c[detail::anisotropy_terms] = {};
+    Real _width = Real(0), _ratio = Real(0);  // the third and fourth coordinate of `anisotropy`
     bool _isotropic;
 };
 

@@ -26,6 +26,7 @@
 #include <regain/closures/analytic_albedo.h>
 #include <regain/closures/distribution.h>
 #include <regain/closures/fresnel_moments.h>
+#include <regain/closures/grid_view.h>
 
 #include <cstdint>
 
@@ -148,6 +149,11 @@ public:
     {}
 
     Real alpha() const { return _alpha; }
+    /// Coordinate of gamma along the third axis; 0 where there is none.
+    Real tail() const { return _tail; }
+    bool has_tail() const { return _has_tail; }
+    /// Coordinate of a width in (0, 1] along the second axis.
+    Real width_of(Real alpha) const { return _width_of(alpha); }
 
     /// The same of another width, in (0, 1].
     TableAxes of_alpha(Real alpha) const
@@ -161,10 +167,15 @@ public:
     /// mu in [0, 1].
     Real directional(const TableView& table, Real mu) const
     {
-        const Real x = _cosine == CosineAxis::tail    ? tail_cosine(mu, _alpha)
-                       : _cosine == CosineAxis::plain ? plain_cosine(mu, _alpha)
-                                                      : stretched_cosine(mu, _alpha);
+        const Real x = cosine(mu);
         return _has_tail ? table.at(x, _width, _tail) : table.at(x, _width);
+    }
+    /// Coordinate of mu in [0, 1] along the first axis.
+    Real cosine(Real mu) const
+    {
+        return _cosine == CosineAxis::tail    ? tail_cosine(mu, _alpha)
+               : _cosine == CosineAxis::plain ? plain_cosine(mu, _alpha)
+                                              : stretched_cosine(mu, _alpha);
     }
     /// Of what changes slowly, q_ms and mu_ms, the first axis is sqrt(mu); mu in [0, 1].
     Real later(const TableView& table, Real mu) const
@@ -205,6 +216,9 @@ struct MicrofacetTables
     bool logarithmic = false;
     /// Formulas in place of all tables, which are then not read: see analytic_tables.h.
     const MicrofacetFits* fits = nullptr;
+    /// What anisotropic lobes of a distribution with a tail have besides: see anisotropy.h. Others
+    /// do not read it.
+    const GridView<5>* anisotropy = nullptr;
 
     /// What can be asked below.
     bool has_albedo() const { return fits || E_ss; }

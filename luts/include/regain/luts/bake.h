@@ -6,7 +6,8 @@
 ///
 /// Names of tables are
 ///     DISTRIBUTION_QUANTITY                   ggx, beckmann, gtr, std; E_ss, E_avg, falloff, dip,
-///                                             balance, q_ms, mu_ms, spread, forward, tilt
+///                                             balance, q_ms, mu_ms, spread, forward, tilt; of
+///                                             gtr and std anisotropy, over five axes
 ///     DISTRIBUTION_QUANTITY_SHADOWING_SIDE    E_S, R_share; correlated, beta; outside, inside
 ///     DISTRIBUTION_QUANTITY_SIDE              R_later; outside, inside
 /// where in the latter kinds gtr and std are followed by one gamma, gtr_1.3_E_S_beta_inside: over
@@ -71,14 +72,16 @@ REGAIN_LUTS_API Table bake(const std::string& name, const BakeProgress& progress
 struct TablePoint
 {
     double x = 0, y = 0, z = 0;
+    double v = 0, w = 0;  ///< axes 4 and 5
 };
 
 /// Exact value of what the table holds at a point, by quadrature of `nodes` nodes a piece.
 REGAIN_LUTS_API double exact_value(const std::string& name, const TablePoint& at, int nodes);
 
 /// Whether the table's error is promised at a point: of q_ms and mu_ms from alpha 0.1 and mu 0.02
-/// on, of R_later from alpha 0.5 and mu 0.05 on, else of distributions with a tail from alpha 5e-4
-/// and mu 7e-4 on, of dielectrics from mu 0.018 on, of anything else everywhere.
+/// on, of R_later from alpha 0.5 and mu 0.05 on, of anisotropy where the wider alpha and mu are
+/// from 5e-3 on, else of distributions with a tail from alpha 5e-4 and mu 7e-4 on, of dielectrics
+/// from mu 0.018 on, of anything else everywhere.
 REGAIN_LUTS_API bool is_error_promised(const std::string& name, const TablePoint& at);
 
 /// No error is promised where the quantity itself is below this: 0.1 of E_S in the beta form, which
@@ -93,6 +96,8 @@ REGAIN_LUTS_API bool is_logarithmic(const std::string& name);
 
 /// The number of a table at a point, bilinear, as look-ups find it but for the limit to 1.
 REGAIN_LUTS_API double interpolated(const TableView& table, const TablePoint& at);
+/// The same of a table with any number of axes.
+REGAIN_LUTS_API double interpolated(const Table& table, const TablePoint& at);
 
 }  // namespace luts
 REGAIN_NAMESPACE_END

@@ -41,8 +41,8 @@ of it.
 Tables are baked by deterministic quadrature on all cores, one after the other, and each is written,
 whole, as soon as it is done: after Ctrl-C those that are listed are there, all others are as they
 were. The error that is reported is the largest of interpolation between the nodes, in the range it
-is promised for: alpha from 5e-4 and mu from 7e-4 on of gtr and std, both from 5e-3 on of their
-anisotropy, mu from 0.018 on of dielectrics.
+is promised for: alpha from 5e-4 and mu from 7e-4 on of gtr and std, of their anisotropy from 2e-3
+and 5e-3 on, mu from 0.018 on of dielectrics.
 
 --verify bakes again and compares: the tables compiled into this program must hold the very same
 16-bit numbers, EXR files values within 1e-6, or one step where they are rounded. Exit code 1 where

@@ -56,7 +56,7 @@ struct AnisotropyNodes
 {
     int cosines, azimuths, widths, ratios, tails;
 };
-constexpr AnisotropyNodes gtr_anisotropy{18, 6, 10, 9, 24}, std_anisotropy{16, 6, 14, 8, 12};
+constexpr AnisotropyNodes gtr_anisotropy{16, 6, 10, 11, 22}, std_anisotropy{16, 6, 14, 8, 12};
 
 // Row 0 is the limit of vanishing alpha at fixed x, which alpha 0 itself does not have.
 constexpr double smallest_alpha = 1e-6;
@@ -300,7 +300,7 @@ Family::Plane Family::plane(const std::vector<double>& xs, const std::vector<dou
         {
             const double share = 5 * y / (8 - 3 * y);
             plane.values.push_back(lobe.correction(mu[i], share, nodes, isotropic[i]));
-            plane.promised.push_back(wider >= 5e-3 && lobe.cosine(mu[i], share) >= 5e-3);
+            plane.promised.push_back(wider >= 2e-3 && lobe.cosine(mu[i], share) >= 5e-3);
         }
     return plane;
 }

@@ -84,7 +84,8 @@ public:
         }
     }
 
-    // As Fit::level does for three axes. Nodes of equal widths are 0, and stay it.
+    // As Fit::level does for three axes. Nodes of equal widths are 0, and stay it; those beyond
+    // what is promised stay what they are, with no error of their own to be weighed.
     void level()
     {
         for (int round = 0; round < 100; ++round)
@@ -99,7 +100,7 @@ public:
                     see(node + _offset[corner], error);
             });
             for (std::size_t n = 0; n < _numbers.size(); ++n)
-                if (above[n] >= below[n] && _nodes.place(n)[3] > 0)
+                if (_nodes.promised[n] && _nodes.place(n)[3] > 0)
                     _numbers[n] -= 0.2 * (above[n] + below[n]);
         }
     }

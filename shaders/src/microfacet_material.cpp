@@ -147,7 +147,7 @@ void MicrofacetMaterial::bind_tables(bool for_albedo)
              (interface->mode == ScatterMode::R && !std::holds_alternative<KullaContyForm>(method)))
     {
         _tables = luts::microfacet_tables(names);
-        if (alpha_x != alpha_y) luts::add_anisotropy(_tables, names);
+        if (alpha_x != alpha_y && !is_walk) luts::add_anisotropy(_tables, names);
         // Of a bounded walk they sharpen the pdf.
         const bool tail = bounded || std::holds_alternative<Tail>(method);
         const bool balanced = std::holds_alternative<Balanced>(method);

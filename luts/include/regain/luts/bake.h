@@ -79,8 +79,8 @@ struct TablePoint
 REGAIN_LUTS_API double exact_value(const std::string& name, const TablePoint& at, int nodes);
 
 /// Whether the table's error is promised at a point: of q_ms and mu_ms from alpha 0.1 and mu 0.02
-/// on, of R_later from alpha 0.5 and mu 0.05 on, of anisotropy where the wider alpha and mu are
-/// from 5e-3 on, else of distributions with a tail from alpha 5e-4 and mu 7e-4 on, of dielectrics
+/// on, of R_later from alpha 0.5 and mu 0.05 on, of anisotropy from a wider alpha of 2e-3
+/// and mu 5e-3 on, else of distributions with a tail from alpha 5e-4 and mu 7e-4 on, of dielectrics
 /// from mu 0.018 on, of anything else everywhere.
 REGAIN_LUTS_API bool is_error_promised(const std::string& name, const TablePoint& at);
 

@@ -12,6 +12,7 @@
 #include <regain/closures/beckmann.h>
 #include <regain/closures/gtr.h>
 #include <regain/closures/std.h>
+#include <regain/luts/anisotropic_balance.h>
 #include <regain/luts/balance.h>
 #include <regain/luts/library.h>
 
@@ -116,6 +117,31 @@ TEST(Balanced, the_table_is_the_fixed_point)
             EXPECT_NEAR(row * balance.at(mu), 1, 2e-5) << alpha << " " << mu;
         }
     }
+}
+
+// Likewise of two widths, where it is a function of the azimuth, too.
+TEST(Balanced, a_stretched_balance_is_the_fixed_point)
+{
+    const auto worst = [](const auto& distribution, double wider, double ratio,
+                          const luts::AnisotropicBalance& g) {
+        const MicrofacetReflection lobe(distribution, ConstantFresnel<double>());
+        double error = 0;
+        for (double mu : {0.03, 0.3, 0.8})
+            for (double phi : {0.0, 0.8, 1.5})
+            {
+                const auto prepared = lobe.prepare(direction<double>(mu, phi));
+                const double row = integrate_reflections(
+                    prepared.wo(), wider, wider / ratio, 40,
+                    [&](const Vec3<double>& wi) { return prepared.eval(wi).x * g.at(wi); });
+                error = std::max(error, std::abs(row * g.at(prepared.wo()) - 1));
+            }
+        return error;
+    };
+    EXPECT_LT(worst(GGX<double>(1, 0.1), 1, 10, {"ggx", 1, 10, 0}), 1e-3);
+    EXPECT_LT(worst(Beckmann<double>(0.7, 0.2), 0.7, 3.5, {"beckmann", 0.7, 3.5, 0}), 6e-4);
+    EXPECT_LT(worst(GTR<double>(0.4, 0.1, 1), 0.4, 4, {"gtr", 0.4, 4, 1}), 1e-3);
+    const luts::AnisotropicBalance same("ggx", 0.5, 1, 0);
+    EXPECT_EQ(same.change(0.3, 0.4), 1);
 }
 
 // As tints go through both ends, the albedo is near that of the directional gain, which is within

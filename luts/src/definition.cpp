@@ -27,7 +27,7 @@ namespace {
 constexpr int table_nodes = 32;
 
 // A furnace has the error of the balance twice, once for each end.
-constexpr int tailed_balance_nodes = 40, tailed_balance_alphas = 48;
+constexpr int tailed_balance_nodes = 48, tailed_balance_alphas = 60;
 
 // What light does after the first bounce changes slowly with everything. A node is the mean of
 // 2^17 walks, and as exact as these.

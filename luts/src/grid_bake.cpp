@@ -19,6 +19,9 @@ constexpr std::size_t axes = 5, corners = 1 << axes;
 using Size = std::array<std::size_t, axes>;
 using Place = std::array<std::size_t, axes>;
 
+// Along an axis of one node there is one cell, in which all is the same.
+std::size_t cells(std::size_t nodes) { return nodes > 1 ? nodes - 1 : 1; }
+
 std::size_t count(const Size& size)
 {
     std::size_t n = 1;
@@ -58,7 +61,7 @@ public:
                 std::size_t(definition.depth), std::size_t(definition.info.length_4),
                 std::size_t(definition.info.length_5)},
           _nodes(_size),
-          _middles({_size[0] - 1, _size[1] - 1, _size[2] - 1, _size[3] - 1, _size[4] - 1})
+          _middles({_size[0] - 1, _size[1] - 1, _size[2] - 1, _size[3] - 1, cells(_size[4])})
     {
         // Words of packed bools are shared by rows.
         std::vector<std::vector<bool>> promised(_nodes.rows() + _middles.rows());
@@ -80,7 +83,7 @@ public:
         {
             std::size_t stride = 1;
             for (std::size_t a = 0; a < axes; stride *= _size[a++])
-                if (corner >> a & 1) _offset[corner] += stride;
+                if ((corner >> a & 1) && _size[a] > 1) _offset[corner] += stride;
         }
     }
 
@@ -133,7 +136,7 @@ private:
         const std::size_t first = row * lattice.size[0] * lattice.size[1];
         const Place p = lattice.place(first);
         const auto coordinate = [&](std::size_t i, std::size_t axis) {
-            return (static_cast<double>(i) + shift) / static_cast<double>(_size[axis] - 1);
+            return (static_cast<double>(i) + shift) / static_cast<double>(cells(_size[axis]));
         };
         std::vector<double> xs, ys;
         for (std::size_t i = 0; i < lattice.size[0]; ++i) xs.push_back(coordinate(i, 0));

@@ -87,6 +87,18 @@ TEST(GridView, is_linear_along_every_axis)
     }
 }
 
+TEST(GridView, an_axis_of_one_node_is_none)
+{
+    luts::Table table = table_of_five_axes();
+    luts::TableInfo info = table.info();
+    info.axis_5.clear();
+    info.length_5 = 1;
+    table = {info, table.width(), table.height(), table.depth() / lengths[4],
+             std::vector<float>(table.values().begin(), table.values().end() - 2 * 4 * 3 * 2 * 5)};
+    const double four[] = {0.3, 0.8, 0.1, 0.6}, five[] = {0.3, 0.8, 0.1, 0.6, 0.7};
+    EXPECT_EQ(table.grid<5>().at(five), table.grid<4>().at(four));
+}
+
 TEST(GridView, coordinates_are_limited)
 {
     const luts::Table table = table_of_five_axes();

@@ -15,8 +15,9 @@
 
 REGAIN_NAMESPACE_BEGIN
 
-/// A table of 16-bit numbers over `Axes` axes of size[0] to size[Axes - 1] nodes, at least 2 each,
-/// the first fastest. A value is offset + scale * stored. The default is no table.
+/// A table of 16-bit numbers over `Axes` axes of size[0] to size[Axes - 1] nodes, the first fastest
+/// and of at least 2. Along an axis of one node the value is the same, and costs nothing. A value
+/// is offset + scale * stored. The default is no table.
 template <int Axes>
 struct GridView
 {
@@ -39,7 +40,7 @@ struct GridView
         {
             const int cells = size[axis] - 1;
             const Real place = detail::saturate(x[axis]) * Real(static_cast<ScalarOf<Real>>(cells));
-            low[axis] = Number::at_most(Number::truncate(place), cells - 1);
+            low[axis] = Number::at_most(Number::truncate(place), cells > 0 ? cells - 1 : 0);
             fraction[axis] = place - Number::to_real(low[axis]);
         }
         const Real stored = blend<Axes - 1, Real>(low, fraction, low[Axes - 1]);
@@ -61,6 +62,7 @@ private:
         else
         {
             a = blend<Axis - 1>(low, fraction, outer * size[Axis - 1] + low[Axis - 1]);
+            if (size[Axis] == 1) return a;
             b = blend<Axis - 1>(low, fraction, (outer + 1) * size[Axis - 1] + low[Axis - 1]);
         }
         return a + (b - a) * fraction[Axis];

@@ -69,12 +69,14 @@ public:
 
     /// What closures read; valid as long as the table lives and stays where it is.
     TableView view() const;
-    /// The same of a table of 4 or 5 axes; throws std::logic_error if it has not as many.
+    /// The same of a table of 4 or 5 axes, or, with one node along the fifth, of 4 as of 5; throws
+    /// std::logic_error if it has others.
     template <int Axes>
     GridView<Axes> grid() const
     {
         static_assert(Axes == 4 || Axes == 5);
-        if (axes() != Axes) throw std::logic_error("table " + name() + " has other axes");
+        if (axes() < 4 || axes() > Axes)
+            throw std::logic_error("table " + name() + " has other axes");
         GridView<Axes> v;
         v.data = _stored.data();
         v.size[0] = _width;

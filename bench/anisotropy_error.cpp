@@ -3,13 +3,14 @@
 
 // How far the compensation of anisotropic lobes is off: the tables of docs/methods.md, Anisotropy.
 //
-//   anisotropy_error [ggx] [beckmann] [std] [gtr] [glass]
+//   anisotropy_error [ggx] [beckmann] [std] [gtr] [balanced] [glass]
 //
 // Largest |1 - E| of the white furnace, F = 1, by quadrature through eval, over widths of which the
 // wider is 0.01 to 1, cosines from 0.01 to 1, azimuths from the one axis to the other, and either
 // axis the wider. Gains are all the same where F = 1, so `turquin` stands for them. Half an hour on
 // one core.
 
+#include <regain/closures/balanced_gain.h>
 #include <regain/closures/beckmann.h>
 #include <regain/closures/compensated.h>
 #include <regain/closures/constant_fresnel.h>
@@ -200,6 +201,47 @@ void report(const std::string& name, const std::string& label,
     }
 }
 
+// The same of `balanced`, whose gain is no factor of wo: without the table that it has for
+// anisotropic lobes, and with it.
+template <class Distribution>
+void report_balance(const std::string& name, const std::string& label,
+                    const std::function<Distribution(double, double)>& make)
+{
+    MicrofacetTables mapped = luts::microfacet_tables(name);
+    luts::add_later_bounces(mapped, name);
+    luts::add_balance(mapped, name);
+    MicrofacetTables tables = mapped;
+    luts::add_balance_anisotropy(tables, name);
+    for (const double ratio : ratios)
+    {
+        double without = 0, with = 0;
+        for (const double width : widths)
+        {
+            const double narrow = width / ratio;
+            const MicrofacetReflection lobe(make(narrow, width), ConstantFresnel<double>());
+            const auto plain = balanced(lobe, mapped), ours = balanced(lobe, tables);
+            for (const double mu : cosines)
+                for (const double part : azimuths)
+                {
+                    if (mu == 1 && part > 0) continue;
+                    const double phi = 0.5 * pi * part, s = std::sqrt((1 - mu) * (1 + mu));
+                    const Vec3<double> wo(s * std::cos(phi), s * std::sin(phi), mu);
+                    const auto a = plain.prepare(wo), b = ours.prepare(wo);
+                    without = std::max(
+                        without, std::abs(integral(wo, narrow, width,
+                                                   [&](const auto& wi) { return a.eval(wi).x; }) -
+                                          1));
+                    with = std::max(
+                        with, std::abs(integral(wo, narrow, width,
+                                                [&](const auto& wi) { return b.eval(wi).x; }) -
+                                       1));
+                }
+        }
+        std::printf("| %s | %g | %.4f | %.4f |\n", label.c_str(), ratio, without, with);
+        std::fflush(stdout);
+    }
+}
+
 // What glass returns in all, from a grid of samples of each of its lobes; and the error of its
 // gain, by one width and by that of the tables.
 template <class Distribution>
@@ -280,6 +322,23 @@ int main(int argc, char** argv)
         if (wanted("gtr"))
             report<GTR<double>>("gtr", "GTR " + std::to_string(gamma).substr(0, 3),
                                 [=](double x, double y) { return GTR<double>(x, y, gamma); });
+
+    if (wanted("balanced"))
+    {
+        std::printf("\n| `balanced` | ratio | without its table | with it |\n|---|---|---|---|\n");
+        report_balance<GGX<double>>("ggx", "GGX",
+                                    [](double x, double y) { return GGX<double>(x, y); });
+        report_balance<Beckmann<double>>("beckmann", "Beckmann",
+                                         [](double x, double y) { return Beckmann<double>(x, y); });
+        for (const double gamma : {1.55, 1.7, 3.0, 10.0})
+            report_balance<STD<double>>(
+                "std", "STD " + std::to_string(gamma).substr(0, 4),
+                [=](double x, double y) { return STD<double>(x, y, gamma); });
+        for (const double gamma : {0.3, 1.0, 1.7, 3.0, 8.0})
+            report_balance<GTR<double>>(
+                "gtr", "GTR " + std::to_string(gamma).substr(0, 3),
+                [=](double x, double y) { return GTR<double>(x, y, gamma); });
+    }
 
     if (!wanted("glass")) return 0;
     std::printf("\n| glass | eta_o | ratio | one width | gain |\n|---|---|---|---|---|\n");

@@ -60,7 +60,7 @@ SpotTolerance spot_tolerance(const std::string& table);
 SpotTolerance spot_tolerance(const luts::Table& table);
 
 /// At `spots` places spread over the part of the table that its error is promised for; at most 10
-/// where an exact number takes random walks.
+/// where an exact number takes random walks, or a lobe's whole balance.
 TableCheck check_spots(const std::string& name, const TableView& shipped,
                        const SpotTolerance& tolerance, const std::string& against, int spots);
 /// The same of a file, with any number of axes and its own tolerance.

@@ -27,7 +27,7 @@ AnisotropicBalance::AnisotropicBalance(const std::string& distribution, double w
                                        double gamma, int nodes)
     : _wider(wider),
       _narrower(wider / ratio),
-      _ratio(ratio),
+      _turn(std::pow(ratio, 0.25)),
       _mean(luts::root_mean_square(_wider, _narrower)),
       _isotropic(SlopeLaw::named(distribution, _mean, gamma), 2 * nodes),
       _change(size, 1.0)
@@ -44,7 +44,7 @@ AnisotropicBalance::AnisotropicBalance(const std::string& distribution, double w
         const double row = std::max(static_cast<double>(o / columns), 0.1);
         const double angle = static_cast<double>(o % columns) / azimuth_cells * half_pi;
         // The inverse of azimuth_place.
-        const double c = std::cos(angle), s = std::sin(angle) / std::pow(_ratio, 0.25);
+        const double c = std::cos(angle), s = std::sin(angle) / _turn;
         const Vec3<double> wo = direction(cosines.cosine(row), s * s / (s * s + c * c));
         isotropic[o] = _isotropic.at(place(wo).mu);
         integrate_stretched_slopes(law, wo, nodes, [&](double weight, const Vec3<double>& wi) {
@@ -78,7 +78,7 @@ AnisotropicBalance::AnisotropicBalance(const std::string& distribution, double w
 double AnisotropicBalance::azimuth_place(double y) const
 {
     return azimuth_cells / half_pi *
-           std::atan2(std::pow(_ratio, 0.25) * std::sqrt(y), std::sqrt(std::max(0.0, 1 - y)));
+           std::atan2(_turn * std::sqrt(y), std::sqrt(std::max(0.0, 1 - y)));
 }
 
 AnisotropicBalance::Place AnisotropicBalance::place(const Vec3<double>& w) const
@@ -90,11 +90,12 @@ AnisotropicBalance::Place AnisotropicBalance::place(const Vec3<double>& w) const
 
 Vec3<double> AnisotropicBalance::direction(double mu, double y) const
 {
-    const double tangent = _mean * std::sqrt(std::max(0.0, (1 - mu) * (1 + mu))) / mu;
-    const Vec3<double> w(tangent * std::sqrt(1 - y) / _wider, tangent * std::sqrt(y) / _narrower,
-                         1);
+    const double sine = _mean * std::sqrt(std::max(0.0, (1 - mu) * (1 + mu)));
+    const Vec3<double> w(sine * std::sqrt(1 - y) / _wider, sine * std::sqrt(y) / _narrower, mu);
     return w / w.length();
 }
+
+double AnisotropicBalance::cosine(double mu, double y) const { return direction(mu, y).z; }
 
 double AnisotropicBalance::change(double mu, double y) const
 {

@@ -297,6 +297,8 @@ std::vector<std::string> shipped_tables()
                                      "spread", "forward", "tilt"})
             names.push_back(std::string(distribution) + "_" + quantity);
     append(names, {"gtr_anisotropy", "std_anisotropy"});
+    for (const char* distribution : {"ggx", "beckmann", "gtr", "std"})
+        names.push_back(std::string(distribution) + "_balance_anisotropy");
     append(names, dielectric_table_names("ggx"));
     append(names, dielectric_table_names("beckmann"));
     append(names, later_split_table_names("ggx"));
@@ -371,7 +373,7 @@ double interpolated(const TableView& table, const TablePoint& at)
 double interpolated(const Table& table, const TablePoint& at)
 {
     const double x[] = {at.x, at.y, at.z, at.v, at.w};
-    return table.info().axis_5.empty() ? interpolated(table.view(), at) : table.grid<5>().at(x);
+    return table.info().axis_4.empty() ? interpolated(table.view(), at) : table.grid<5>().at(x);
 }
 
 Table bake(const std::string& name, const BakeProgress& progress)

@@ -5,11 +5,13 @@
 
 #include "anisotropy.h"
 
+#include <regain/closures/anisotropic_balance.h>
 #include <regain/closures/anisotropy.h>
 #include <regain/closures/dielectric_tables.h>
 #include <regain/closures/fresnel_moments.h>
 #include <regain/closures/tail.h>
 #include <regain/luts/albedo_integral.h>
+#include <regain/luts/anisotropic_balance.h>
 #include <regain/luts/balance.h>
 #include <regain/luts/dielectric_integral.h>
 #include <regain/luts/later_bounces.h>
@@ -57,6 +59,11 @@ struct AnisotropyNodes
     int cosines, azimuths, widths, ratios, tails;
 };
 constexpr AnisotropyNodes gtr_anisotropy{16, 6, 10, 11, 22}, std_anisotropy{16, 6, 14, 8, 12};
+
+// The same of the balance, which varies more along the cosine.
+constexpr AnisotropyNodes ggx_balance_anisotropy{20, 8, 16, 10, 1},
+    beckmann_balance_anisotropy{20, 8, 20, 10, 1}, gtr_balance_anisotropy{16, 7, 8, 8, 10},
+    std_balance_anisotropy{16, 7, 14, 7, 7};
 
 // Row 0 is the limit of vanishing alpha at fixed x, which alpha 0 itself does not have.
 constexpr double smallest_alpha = 1e-6;
@@ -145,7 +152,8 @@ bool is_tailed(const std::string& distribution)
     throw std::invalid_argument(
         "no table is called '" + name + "'" + why +
         "; there are DISTRIBUTION_QUANTITY with ggx, beckmann, gtr, std and E_ss, E_avg, falloff, "
-        "dip, balance, q_ms, mu_ms, spread, forward, tilt, of gtr and std anisotropy, and "
+        "dip, balance, balance_anisotropy, q_ms, mu_ms, spread, forward, tilt, of gtr and std "
+        "anisotropy, and "
         "DISTRIBUTION_QUANTITY_SHADOWING_SIDE with E_S, R_share; correlated, beta; outside, "
         "inside, and DISTRIBUTION_R_later_SIDE; in the latter two gtr and std take their gamma: "
         "gtr_1.3_E_S_beta_inside");
@@ -187,6 +195,13 @@ double Family::tail_at(double coordinate) const
 {
     if (!has_tail_axis()) return gamma;
     return distribution == "gtr" ? gtr_gamma(coordinate) : std_gamma(coordinate);
+}
+
+double Family::mu_at(double x, double alpha) const
+{
+    return has_tail_axis()              ? mu_of_tail_cosine(x, alpha)
+           : distribution == "beckmann" ? mu_of_plain_cosine(x, alpha)
+                                        : mu_of_stretched_cosine(x, alpha);
 }
 
 SlopeLaw Family::law(double y, double z) const
@@ -245,11 +260,7 @@ std::vector<Family::Values> Family::row(const SlopeLaw& law, const std::vector<d
                  detail::fresnel_weight(alpha, eta) * dielectric_reflectance(mu, eta)});
             continue;
         }
-        const auto mu_at = [&](double coordinate) {
-            return has_tail_axis()              ? mu_of_tail_cosine(coordinate, alpha)
-                   : distribution == "beckmann" ? mu_of_plain_cosine(coordinate, alpha)
-                                                : mu_of_stretched_cosine(coordinate, alpha);
-        };
+        const auto mu_at = [&](double coordinate) { return this->mu_at(coordinate, alpha); };
         if (kind == Kind::later)
         {
             const double mu = std::max(x * x, least_later_cosine);
@@ -285,6 +296,7 @@ std::vector<Family::Values> Family::row(const SlopeLaw& law, const std::vector<d
 Family::Plane Family::plane(const std::vector<double>& xs, const std::vector<double>& ys, double z,
                             double v, double w, int nodes) const
 {
+    if (kind == Kind::balance_anisotropy) return balance_plane(xs, ys, z, v, w, nodes);
     Plane plane;
     const double wider = alpha_at(z);
     const AnisotropicLobe lobe(distribution, wider, ratio_of_coordinate(v), tail_at(w));
@@ -301,6 +313,22 @@ Family::Plane Family::plane(const std::vector<double>& xs, const std::vector<dou
             const double share = 5 * y / (8 - 3 * y);
             plane.values.push_back(lobe.correction(mu[i], share, nodes, isotropic[i]));
             plane.promised.push_back(wider >= 2e-3 && lobe.cosine(mu[i], share) >= 5e-3);
+        }
+    return plane;
+}
+
+Family::Plane Family::balance_plane(const std::vector<double>& xs, const std::vector<double>& ys,
+                                    double z, double v, double w, int nodes) const
+{
+    Plane plane;
+    const double wider = alpha_at(z), root = 1 - v / detail::balance_ratio_scale;
+    const AnisotropicBalance g(distribution, wider, 1 / (root * root), tail_at(w), nodes);
+    for (double y : ys)
+        for (double x : xs)
+        {
+            const double mu = mu_at(x, g.root_mean_square());
+            plane.values.push_back(std::log(g.change(mu, y)));
+            plane.promised.push_back(wider >= 5e-3 && g.cosine(mu, y) >= 5e-3);
         }
     return plane;
 }
@@ -453,6 +481,39 @@ Definition Definition::of(const std::string& name)
             return d;
         }
 
+    if (rest == "balance_anisotropy")
+    {
+        const AnisotropyNodes n = d.family.distribution == "ggx" ? ggx_balance_anisotropy
+                                  : d.family.distribution == "beckmann"
+                                      ? beckmann_balance_anisotropy
+                                  : d.family.distribution == "gtr" ? gtr_balance_anisotropy
+                                                                   : std_balance_anisotropy;
+        d.family.kind = Family::Kind::balance_anisotropy;
+        d.fitted = true;
+        d.greatest = std::numeric_limits<double>::infinity();
+        d.width = n.cosines;
+        d.height = n.azimuths;
+        d.depth = n.widths;
+        info.length_4 = n.ratios;
+        info.length_5 = n.tails;
+        info.quantity = rest;
+        const Definition balance = Definition::of(d.family.distribution + "_balance");
+        info.axis_x = balance.info.axis_x + ", of mu' and R";
+        info.axis_y = "Y^2 / (X^2 + Y^2), Y along the narrower axis";
+        info.axis_z = balance.info.axis_y + ", alpha of the wider axis";
+        info.axis_4 = "(1 - sqrt(narrower / wider)) / (1 - sqrt(1 / 20))";
+        info.axis_5 = balance.info.axis_z;
+        info.transform = "ln";
+        info.method = balance.info.method;
+        info.error_kind = "relative";
+        d.node_accuracy = info.nodes = 20;
+        d.check_accuracy = 16;
+        info.scale = 0x1p-13;
+        info.offset = -4;
+        d.lowest = info.offset;
+        d.highest = info.offset + 65535 * info.scale;
+        return d;
+    }
     if (tailed && rest == "anisotropy")
     {
         const bool gtr = d.family.distribution == "gtr";

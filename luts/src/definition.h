@@ -17,14 +17,15 @@ namespace luts {
 struct Family
 {
     enum class Kind {
-        directional,  // E_ss, falloff, dip
-        balance,      // balance
-        average,      // E_avg
-        later,        // q_ms, mu_ms
-        shape,        // spread, forward, tilt
-        split,        // R_later
-        anisotropy,   // anisotropy, over five axes
-        dielectric    // E^R, correlated E^T, E^T in the beta form, w F(mu)
+        directional,         // E_ss, falloff, dip
+        balance,             // balance
+        average,             // E_avg
+        later,               // q_ms, mu_ms
+        shape,               // spread, forward, tilt
+        split,               // R_later
+        anisotropy,          // anisotropy, over five axes
+        balance_anisotropy,  // of balance, over four or five axes
+        dielectric           // E^R, correlated E^T, E^T in the beta form, w F(mu)
     };
     using Values = std::array<double, 4>;
 
@@ -39,6 +40,7 @@ struct Family
     double alpha_of_tailed(double coordinate) const;
     double alpha_at(double coordinate) const;
     double tail_at(double coordinate) const;
+    double mu_at(double x, double alpha) const;  // of mirrors
     double mu_of_dielectric(double x, double y, double eta) const;
     bool operator==(const Family& other) const;
 
@@ -52,8 +54,8 @@ struct Family
     std::vector<Values> row(const SlopeLaw& law, const std::vector<double>& x, double y, double z,
                             int nodes) const;
 
-    /// Of five axes: the values at every x and y of the rest, x fastest, and which are in the range
-    /// that the error is promised for.
+    /// Of four or five axes: the values at every x and y of the rest, x fastest, and which are in
+    /// the range that the error is promised for.
     struct Plane
     {
         std::vector<double> values;
@@ -61,6 +63,9 @@ struct Family
     };
     Plane plane(const std::vector<double>& x, const std::vector<double>& y, double z, double v,
                 double w, int nodes) const;
+
+    Plane balance_plane(const std::vector<double>& x, const std::vector<double>& y, double z,
+                        double v, double w, int nodes) const;
 
     /// Is (x, y, z) in the range that the error is promised for? Of dielectrics `share` of the
     /// least cosine is the bound.
@@ -85,7 +90,11 @@ struct Definition
     /// Throws std::invalid_argument, which says what names there are.
     static Definition of(const std::string& name);
 
-    bool is_grid() const { return family.kind == Family::Kind::anisotropy; }
+    bool is_grid() const
+    {
+        return family.kind == Family::Kind::anisotropy ||
+               family.kind == Family::Kind::balance_anisotropy;
+    }
 };
 
 }  // namespace luts

@@ -185,6 +185,11 @@ void add_balance(MicrofacetTables& tables, const std::string& distribution)
     tables.balance = table_named(distribution + "_balance");
 }
 
+void add_balance_anisotropy(MicrofacetTables& tables, const std::string& distribution)
+{
+    tables.balance_anisotropy = loaded_grid(distribution + "_balance_anisotropy");
+}
+
 void add_anisotropy(MicrofacetTables& tables, const std::string& distribution)
 {
     if (distribution == "ggx" || distribution == "beckmann") return;

@@ -154,6 +154,7 @@ void MicrofacetMaterial::bind_tables(bool for_albedo)
         if (tail || balanced || std::holds_alternative<Directional>(method))
             luts::add_later_bounces(_tables, names);
         if (balanced) luts::add_balance(_tables, names);
+        if (balanced && alpha_x != alpha_y) luts::add_balance_anisotropy(_tables, names);
         if (tail) luts::add_later_shape(_tables, names);
     }
     else if (bounded)

@@ -74,6 +74,7 @@ public:
             MicrofacetTables tables = mirror_tables(d);
             luts::add_later_bounces(tables, d);
             luts::add_balance(tables, d);
+            luts::add_balance_anisotropy(tables, d);
             return balanced(schlick(s), tables, strength(s));
         });
         for (KullaContyForm form : all_kulla_conty_forms)

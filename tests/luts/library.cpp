@@ -114,6 +114,22 @@ TEST_F(Library, a_table_is_loaded_once_whoever_asks)
     EXPECT_EQ(times_loaded("std_E_ss"), 1);
 }
 
+TEST_F(Library, what_only_lobes_of_two_widths_read_is_loaded_for_them)
+{
+    const auto loads = [] { return times_loaded("beckmann_balance_anisotropy"); };
+    const auto before = loads();
+    MicrofacetTables tables = luts::microfacet_tables("beckmann");
+    luts::add_balance(tables, "beckmann");
+    EXPECT_EQ(loads(), before);
+    EXPECT_FALSE(tables.balance_anisotropy);
+    luts::add_balance_anisotropy(tables, "beckmann");
+    EXPECT_EQ(loads(), 1);
+    EXPECT_TRUE(*tables.balance_anisotropy);
+    EXPECT_EQ(tables.balance_anisotropy->size[4], 1);
+    luts::add_balance_anisotropy(tables, "std");
+    EXPECT_GT(tables.balance_anisotropy->size[4], 1);
+}
+
 TEST_F(Library, a_missing_table_says_where_it_was_looked_for_and_what_bakes_it)
 {
     const std::string error = error_of("gtr_1.25_E_S_beta_outside");

@@ -4,14 +4,15 @@
 /// @file
 /// `balanced`: a gain of both directions that leaves the lobe reciprocal and loses nothing:
 ///
-///   gain(wo, wi) = 1 + s (g(mu_o) g(mu_i) - 1) (t(mu_o) + t(mu_i)) / 2
+///   gain(wo, wi) = 1 + s (g(wo) g(wi) - 1) (t(mu_o) + t(mu_i)) / 2
 ///
-/// with the strength s in [0, 1]. g is the one function of the cosine for which
+/// with the strength s in [0, 1]. g is the one function of a direction for which
 ///
-///   g(mu_o) int rho_ss(wo, wi) g(mu_i) cos theta_i dwi = 1     for every wo
+///   g(wo) int rho_ss(wo, wi) g(wi) cos theta_i dwi = 1     for every wo
 ///
 /// where rho_ss is the lobe with F = 1 (regain/luts/balance.h finds it; the scaling of a symmetric
-/// kernel to rows that sum to 1, Sinkhorn and Knopp 1967). So the albedo is 1 where F = 1. Turquin
+/// kernel to rows that sum to 1, Sinkhorn and Knopp 1967). Of an isotropic lobe it depends on the
+/// cosine alone, of others see anisotropic_balance.h. So the albedo is 1 where F = 1. Turquin
 /// 2019, Eq. 10, has the whole gain at wo: its lobe preserves energy and is not reciprocal, or is
 /// reciprocal and does not; two factors, one for each end, do both.
 ///
@@ -32,6 +33,7 @@
 
 #pragma once
 
+#include <regain/closures/anisotropic_balance.h>
 #include <regain/closures/directional_gain.h>
 
 REGAIN_NAMESPACE_BEGIN
@@ -53,8 +55,7 @@ public:
     BalancedGain(const Distribution& distribution, const Fresnel& fresnel,
                  const MicrofacetTables& tables, Real strength)
         : _tint(distribution, fresnel, tables, strength),
-          _balance(tables.balance),
-          _axes(distribution),
+          _balance(distribution, tables),
           _half_strength(Real(0.5f) * detail::saturate(strength))
     {
         _bound = _balance && tables.has_albedo() && tables.has_later_bounces();
@@ -93,7 +94,8 @@ public:
         End _o;
     };
 
-    /// At full strength; of an anisotropic lobe it is not promised.
+    /// At full strength; of an anisotropic lobe, which does so to a few thousandths with a table
+    /// for it, it is not promised.
     bool energy_preserving() const { return _bound && _tint.energy_preserving(); }
 
 private:
@@ -101,13 +103,11 @@ private:
     {
         if (!_bound) return {};
         const Real mu = detail::saturate(w.z);
-        const auto place = _axes.place({w.x, w.y, mu});
-        return {place.axes.directional(_balance, place.mu), _tint.F_ms(mu) * _half_strength};
+        return {_balance.at({w.x, w.y, mu}), _tint.F_ms(mu) * _half_strength};
     }
 
     DirectionalGain<Fresnel> _tint;
-    TableView _balance;
-    DirectionAxes<Real> _axes;
+    DirectionalBalance<Real> _balance;
     Real _half_strength;
     bool _bound = false;
 };

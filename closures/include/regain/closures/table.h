@@ -219,6 +219,8 @@ struct MicrofacetTables
     /// What anisotropic lobes of a distribution with a tail have besides: see anisotropy.h. Others
     /// do not read it.
     const GridView<5>* anisotropy = nullptr;
+    /// What those of any distribution have besides `balance`: see anisotropic_balance.h.
+    const GridView<5>* balance_anisotropy = nullptr;
 
     /// What can be asked below.
     bool has_albedo() const { return fits || E_ss; }

@@ -26,7 +26,7 @@ public:
     /// alpha of the wider axis in (0, 1], its ratio to the narrower at least 1; distribution and
     /// gamma as in slope_law.h. `nodes` of the quadrature along each piece: with 20 of them,
     /// furnaces are within 1e-3 for GGX and Beckmann up to 20 : 1, and for GTR, whose tails are
-    /// stretched the most, within 5e-3.
+    /// stretched the most, within 1e-2.
     AnisotropicBalance(const std::string& distribution, double wider, double ratio, double gamma,
                        int nodes = 20);
 
@@ -36,6 +36,9 @@ public:
     /// g(w) / g(mu'; R), the latter of the isotropic lobe of width R, at the coordinates of
     /// closures/anisotropic_balance.h: mu' and y, each in [0, 1].
     double change(double mu, double y) const;
+
+    /// The cosine of the direction at those coordinates.
+    double cosine(double mu, double y) const;
 
     /// g of a unit direction, whose x is along the wider axis; w.z in [0, 1].
     double at(const Vec3<double>& w) const;
@@ -49,7 +52,7 @@ private:
     Vec3<double> direction(double mu, double y) const;
     double azimuth_place(double y) const;
 
-    double _wider, _narrower, _ratio, _mean;
+    double _wider, _narrower, _turn, _mean;
     Balance _isotropic;
     std::vector<double> _change;
 };

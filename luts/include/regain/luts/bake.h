@@ -6,8 +6,9 @@
 ///
 /// Names of tables are
 ///     DISTRIBUTION_QUANTITY                   ggx, beckmann, gtr, std; E_ss, E_avg, falloff, dip,
-///                                             balance, q_ms, mu_ms, spread, forward, tilt; of
-///                                             gtr and std anisotropy, over five axes
+///                                             balance, q_ms, mu_ms, spread, forward, tilt; over
+///                                             four or five axes balance_anisotropy, and of gtr
+///                                             and std anisotropy
 ///     DISTRIBUTION_QUANTITY_SHADOWING_SIDE    E_S, R_share; correlated, beta; outside, inside
 ///     DISTRIBUTION_QUANTITY_SIDE              R_later; outside, inside
 /// where in the latter kinds gtr and std are followed by one gamma, gtr_1.3_E_S_beta_inside: over
@@ -79,9 +80,10 @@ struct TablePoint
 REGAIN_LUTS_API double exact_value(const std::string& name, const TablePoint& at, int nodes);
 
 /// Whether the table's error is promised at a point: of q_ms and mu_ms from alpha 0.1 and mu 0.02
-/// on, of R_later from alpha 0.5 and mu 0.05 on, of anisotropy from a wider alpha of 2e-3
-/// and mu 5e-3 on, else of distributions with a tail from alpha 5e-4 and mu 7e-4 on, of dielectrics
-/// from mu 0.018 on, of anything else everywhere.
+/// on, of R_later from alpha 0.5 and mu 0.05 on, of anisotropy where the wider alpha is 2e-3 and mu
+/// 5e-3 or more, of the anisotropy of balances where both are 5e-3 or more, else of distributions
+/// with a tail from alpha 5e-4 and mu 7e-4 on, of dielectrics from mu 0.018 on, of anything else
+/// everywhere.
 REGAIN_LUTS_API bool is_error_promised(const std::string& name, const TablePoint& at);
 
 /// No error is promised where the quantity itself is below this: 0.1 of E_S in the beta form, which

@@ -45,6 +45,11 @@ REGAIN_LUTS_API void add_later_bounces(MicrofacetTables& tables, const std::stri
 /// above.
 REGAIN_LUTS_API void add_balance(MicrofacetTables& tables, const std::string& distribution);
 
+/// Adds what the balance lacks of an anisotropic lobe, in a table that no other needs; errors as
+/// above.
+REGAIN_LUTS_API void add_balance_anisotropy(MicrofacetTables& tables,
+                                            const std::string& distribution);
+
 /// Adds what the tables of isotropic lobes lack of anisotropic ones: of gtr and std a table, which
 /// no other lobe needs; of ggx and beckmann nothing. Errors as above.
 REGAIN_LUTS_API void add_anisotropy(MicrofacetTables& tables, const std::string& distribution);

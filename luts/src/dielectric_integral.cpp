@@ -4,6 +4,7 @@
 #include <regain/closures/refraction.h>
 #include <regain/luts/dielectric_integral.h>
 
+#include "dielectric_facet.h"
 #include "rules.h"
 
 #include <algorithm>
@@ -16,23 +17,6 @@ namespace luts {
 namespace {
 
 const double pi = std::acos(-1.0);
-
-// ln Gamma(x) for x >= 1 by Stirling's series; std::lgamma is slower and need not be thread-safe.
-double log_gamma(double x)
-{
-    double shift = 1;
-    for (; x < 9; x += 1) shift *= x;
-    const double r = 1 / x, r2 = r * r;
-    return (x - 0.5) * std::log(x) - x + 0.91893853320467274178 - std::log(shift) +
-           r * (1.0 / 12 - r2 * (1.0 / 360 - r2 * (1.0 / 1260 - r2 * (1.0 / 1680 - r2 / 1188))));
-}
-
-// Fresnel reflectance at the cosine c, g = eta |cos theta_t| (Walter et al. 2007, Eq. 22).
-double fresnel(double c, double g)
-{
-    const double a = (g - c) / (g + c), b = (c * (g + c) - 1) / (c * (g - c) + 1);
-    return 0.5 * a * a * (1 + b * b);
-}
 
 // t in [0, 1] with its nodes gathered at both ends.
 double smooth_step(double t) { return t * t * (3 - 2 * t); }

@@ -33,10 +33,11 @@ constexpr const char* help_footer = R"help(
 TABLE is DISTRIBUTION_QUANTITY: ggx, beckmann, gtr or std; E_ss, E_avg, falloff, dip, balance,
 balance_anisotropy, q_ms, mu_ms, spread, forward or tilt, and of gtr and std anisotropy. Those of dielectrics are
 DISTRIBUTION_QUANTITY_SHADOWING_SIDE: E_S or R_share; correlated or beta; outside or inside, and
-DISTRIBUTION_R_later_SIDE; there gtr and std take one gamma, gtr_1.3_E_S_beta_inside. Without names
-those of ggx are baked that are compiled in. They take twenty seconds; on two cores the mirror tables
-of gtr or std take some minutes, and so do the ten of dielectrics of a distribution, or of one gamma
-of it.
+DISTRIBUTION_R_later_SIDE; there gtr and std take one gamma, gtr_1.3_E_S_beta_inside. Anisotropic
+glass of ggx and beckmann has DISTRIBUTION_anisotropy_SHADOWING_SIDE. Without names those of ggx are
+baked that are compiled in. They take twenty seconds; on two cores the mirror tables of gtr or std take
+some minutes, and so do the ten of dielectrics of a distribution, or of one gamma of it, and the four of
+its anisotropic glass.
 
 Tables are baked by deterministic quadrature on all cores, one after the other, and each is written,
 whole, as soon as it is done: after Ctrl-C those that are listed are there, all others are as they
@@ -101,7 +102,11 @@ Names asked_for(const Arguments& a)
         add(luts::dielectric_table_names(a.distribution, gamma));
         add(luts::later_split_table_names(a.distribution, gamma));
     };
-    if (!tailed) add_glass(0);
+    if (!tailed)
+    {
+        add_glass(0);
+        add(luts::dielectric_anisotropy_table_names(a.distribution));
+    }
     for (double gamma : a.gammas) add_glass(gamma);
     return names;
 }

@@ -4,6 +4,7 @@
 #include <regain/luts/bake.h>
 
 #include "definition.h"
+#include "dielectric_anisotropy.h"
 #include "grid_bake.h"
 #include "parallel.h"
 
@@ -303,6 +304,8 @@ std::vector<std::string> shipped_tables()
     append(names, dielectric_table_names("beckmann"));
     append(names, later_split_table_names("ggx"));
     append(names, later_split_table_names("beckmann"));
+    append(names, dielectric_anisotropy_table_names("ggx"));
+    append(names, dielectric_anisotropy_table_names("beckmann"));
     return names;
 }
 
@@ -340,6 +343,23 @@ std::vector<std::string> later_split_table_names(const std::string& distribution
     return names;
 }
 
+std::vector<std::string> dielectric_anisotropy_table_names(const std::string& distribution)
+{
+    TableInfo info;
+    info.distribution = distribution;
+    info.quantity = "anisotropy";
+    std::vector<std::string> names;
+    if (distribution == "gtr" || distribution == "std") return names;
+    for (const char* side : {"outside", "inside"})
+        for (const char* shadowing : {"correlated", "beta"})
+        {
+            info.side = side;
+            info.transmission_shadowing = shadowing;
+            names.push_back(table_name(info));
+        }
+    return names;
+}
+
 void require_bakeable(const std::string& name) { Definition::of(name); }
 
 TableInfo bakeable_info(const std::string& name) { return Definition::of(name).info; }
@@ -348,6 +368,12 @@ double exact_value(const std::string& name, const TablePoint& at, int nodes)
 {
     const Definition d = Definition::of(name);
     if (d.is_grid()) return d.family.plane({at.x}, {at.y}, at.z, at.v, at.w, nodes).values.front();
+    if (d.family.kind == Family::Kind::glass_anisotropy)
+    {
+        const GlassAnisotropy::Values v =
+            GlassAnisotropy{d.info.distribution, d.family.inside}.at(at, nodes);
+        return d.info.transmission_shadowing == "beta" ? v.beta : v.correlated;
+    }
     return d.value(d.family.row({at.x}, at.y, at.z, nodes)[0]);
 }
 
@@ -355,7 +381,11 @@ bool is_error_promised(const std::string& name, const TablePoint& at)
 {
     const Definition d = Definition::of(name);
     if (d.is_grid()) return d.family.plane({at.x}, {at.y}, at.z, at.v, at.w, 2).promised.front();
-    return d.family.promised(at.x, at.y, at.z);
+    if (d.family.kind != Family::Kind::glass_anisotropy) return d.family.promised(at.x, at.y, at.z);
+    const GlassAnisotropy::Values v =
+        GlassAnisotropy{d.info.distribution, d.family.inside}.at(at, d.check_accuracy);
+    return GlassAnisotropy::promised(
+        v.mu, d.info.transmission_shadowing == "beta" ? v.beta_sum : v.correlated_sum);
 }
 
 double smallest_promised(const std::string& name) { return Definition::of(name).smallest_promised; }
@@ -380,6 +410,7 @@ Table bake(const std::string& name, const BakeProgress& progress)
 {
     const Definition d = Definition::of(name);
     if (d.is_grid()) return bake_grid(d, progress);
+    if (d.family.kind == Family::Kind::glass_anisotropy) return bake_glass_anisotropy(d, progress);
     const std::shared_ptr<const Lattice> lattice = lattice_of(d, progress);
     Fit fit(d, *lattice);
     if (d.fitted) fit.level();

@@ -4,6 +4,7 @@
 #include "definition.h"
 
 #include "anisotropy.h"
+#include "dielectric_anisotropy.h"
 
 #include <regain/closures/anisotropic_balance.h>
 #include <regain/closures/anisotropy.h>
@@ -156,7 +157,7 @@ bool is_tailed(const std::string& distribution)
         "anisotropy, and "
         "DISTRIBUTION_QUANTITY_SHADOWING_SIDE with E_S, R_share; correlated, beta; outside, "
         "inside, and DISTRIBUTION_R_later_SIDE; in the latter two gtr and std take their gamma: "
-        "gtr_1.3_E_S_beta_inside");
+        "gtr_1.3_E_S_beta_inside; and DISTRIBUTION_anisotropy_SHADOWING_SIDE with ggx, beckmann");
 }
 
 }  // namespace
@@ -589,6 +590,44 @@ Definition Definition::of(const std::string& name)
         info.scale = 1.0 / 65535;
         return d;
     }
+    for (const char* shadowing : shadowings)
+        for (const char* side : sides)
+        {
+            if (tailed || rest != std::string("anisotropy_") + shadowing + "_" + side) continue;
+            d.family.kind = Family::Kind::glass_anisotropy;
+            d.family.inside = side == std::string("inside");
+            info.quantity = "anisotropy";
+            info.transmission_shadowing = shadowing;
+            info.side = side;
+            const std::array<int, 5> size = glass_anisotropy_size(d.family.inside);
+            d.width = size[0];
+            d.height = size[1];
+            d.depth = size[2] * size[3] * size[4];
+            info.length_4 = size[3];
+            info.length_5 = size[4];
+            info.axis_x = d.family.inside ? "critical_cosine_coordinate(mu, a, eta) of the beta "
+                                            "form, kappa at 3/5"
+                                          : "sqrt(mu / (mu + a (1 - mu)))";
+            info.axis_y = "3/4 f(tan phi / s) + 1/4 f(tan phi / rho^0.9), f(u) = u^2 / (1 + u^2)";
+            info.axis_z = "wider alpha^(3/4)";
+            info.axis_4 = "ln(rho) / ln(20)";
+            info.axis_5 = "((5/3 |eta - 1| / (eta + 1))^(1/4) - 0.35) / 0.65";
+            info.method =
+                "Gauss-Legendre over stretched slopes, nodes levelled for the least largest error";
+            info.error_kind = "relative";
+            info.transform = "ln";
+            d.fitted = true;
+            d.greatest = std::numeric_limits<double>::infinity();
+            // Good to 1e-3.
+            d.node_accuracy = d.family.distribution == "beckmann" ? 14 : 9;
+            d.check_accuracy = d.family.distribution == "beckmann" ? 11 : 8;
+            info.nodes = d.node_accuracy;
+            d.rounding = Rounding::stored;
+            info.scale = 0x1p-10;
+            info.offset = d.lowest = -1.5;
+            d.highest = 1.5;
+            return d;
+        }
     for (const char* shadowing : shadowings)
         for (const char* side : sides)
             for (const bool share : {false, true})

@@ -25,6 +25,7 @@ struct Family
         split,               // R_later
         anisotropy,          // anisotropy, over five axes
         balance_anisotropy,  // of balance, over four or five axes
+        glass_anisotropy,    // of dielectrics: see dielectric_anisotropy.h
         dielectric           // E^R, correlated E^T, E^T in the beta form, w F(mu)
     };
     using Values = std::array<double, 4>;

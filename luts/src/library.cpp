@@ -29,6 +29,7 @@ struct Library
     std::mutex mutex;
     std::map<std::string, std::unique_ptr<const Table>> tables;
     std::map<std::string, std::unique_ptr<const GridView<5>>> grids;
+    std::map<std::string, DielectricAnisotropy> anisotropies;
     std::vector<fs::path> folders, loaded;
 };
 
@@ -230,6 +231,20 @@ void add_later_split(DielectricTables& tables, const std::string& distribution, 
 {
     const std::vector<std::string> names = later_split_table_names(distribution, gamma);
     for (std::size_t side = 0; side < 2; ++side) tables.later[side] = loaded(names[side]).view();
+}
+
+void add_anisotropy(DielectricTables& tables, const std::string& distribution,
+                    TransmissionShadowing shadowing)
+{
+    if (distribution == "gtr" || distribution == "std") return;
+    const std::string form = shadowing == TransmissionShadowing::beta ? "beta" : "correlated",
+                      name = distribution + "_anisotropy_" + form;
+    DielectricAnisotropy views;
+    for (std::size_t side = 0; side < 2; ++side)
+        views.change[side] = loaded(name + (side == 0 ? "_outside" : "_inside")).grid<5>();
+    Library& lib = library();
+    const std::lock_guard<std::mutex> lock(lib.mutex);
+    tables.anisotropy = &lib.anisotropies.emplace(name, views).first->second;
 }
 
 std::vector<fs::path> loaded_files()

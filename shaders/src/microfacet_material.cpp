@@ -167,6 +167,9 @@ void MicrofacetMaterial::bind_tables(bool for_albedo)
     }
     else if (gains || (for_albedo && !is_walk))
         _interface_tables = luts::dielectric_tables(names, interface->shadowing, gamma);
+    if (_interface_tables && !bounded && alpha_x != alpha_y)
+        luts::add_anisotropy(_interface_tables, names,
+                             split ? TransmissionShadowing::beta : interface->shadowing);
 }
 
 }  // namespace shaders

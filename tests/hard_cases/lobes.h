@@ -229,8 +229,10 @@ private:
     static DielectricTables glass_tables(const std::string& distribution,
                                          TransmissionShadowing shadowing)
     {
-        return Distribution::has_tail ? coarse_dielectric_tables()
-                                      : luts::dielectric_tables(distribution, shadowing);
+        if (Distribution::has_tail) return coarse_dielectric_tables();
+        DielectricTables tables = luts::dielectric_tables(distribution, shadowing);
+        luts::add_anisotropy(tables, distribution, shadowing);
+        return tables;
     }
 
     std::vector<Kind<Real>>& _out;

@@ -104,6 +104,25 @@ TEST_F(Library, every_shipped_table_is_found_and_is_what_its_name_says)
     for (const std::string& name : luts::shipped_tables()) EXPECT_TRUE(luts::table_named(name));
 }
 
+TEST_F(Library, what_anisotropic_glass_takes_is_loaded_for_it_alone)
+{
+    for (const char* distribution : {"ggx", "beckmann"})
+    {
+        DielectricTables tables =
+            luts::dielectric_tables(distribution, TransmissionShadowing::correlated);
+        EXPECT_FALSE(tables.anisotropy);
+        luts::add_anisotropy(tables, distribution, TransmissionShadowing::correlated);
+        ASSERT_TRUE(tables.anisotropy);
+        EXPECT_TRUE(tables.anisotropy->change[0] && tables.anisotropy->change[1]);
+        DielectricTables again;
+        luts::add_anisotropy(again, distribution, TransmissionShadowing::correlated);
+        EXPECT_EQ(again.anisotropy, tables.anisotropy);
+    }
+    DielectricTables none;
+    luts::add_anisotropy(none, "gtr", TransmissionShadowing::beta);
+    EXPECT_FALSE(none.anisotropy);
+}
+
 TEST_F(Library, a_table_is_loaded_once_whoever_asks)
 {
     std::vector<std::thread> threads;

@@ -195,10 +195,9 @@ public:
                         transmits() ? alone(ScatterMode::T).transmit : Color(Real(0))};
 
             const Real eta = _fresnel.relative_index().eta, mu = detail::min(_wo.z, Real(1));
-            const Real alpha = _lobe._tables.width(_lobe._distribution, eta, _wo);
             const auto F = _fresnel.split(mu);
-            const Real E = _lobe._tables.albedo(alpha, eta, mu);
-            const Real share = _lobe._tables.reflected_share(alpha, eta, mu);
+            const Real E = _lobe._tables.albedo(_lobe._distribution, eta, _wo);
+            const Real share = _lobe._tables.reflected_share(_lobe._distribution, eta, _wo);
             const Color none(Real(0));
             return {
                 reflects() ? _reflection * detail::select(_flat, F.reflectance, E * share) : none,

@@ -71,7 +71,7 @@ public:
         const Real mu = detail::saturate(detail::abs(wo.z));
         const Real eta = detail::select(below, _index[1].eta, _index[0].eta);
         const Real E = _reflects_only ? _axes.albedo(_mirror, {wo.x, wo.y, mu})
-                                      : _tables.albedo(_tables.width(_axes, eta, wo), eta, mu);
+                                      : _tables.albedo(_axes, eta, wo);
         const Real s = detail::select(below, _strength[1], _strength[0]);
         // At grazing angles the beta form of shadowing lets next to nothing pass the first time.
         const Real some = detail::max(E, detail::constant<Real>(1e-12));

@@ -74,7 +74,7 @@ public:
                     _axes.alpha(),
                     [this, o](Real mu) {
                         return _axes.azimuth_mean(
-                            mu, [&](const Vec3<Real>& w) { return loss(_eta[o], w, mu); });
+                            mu, [&](const Vec3<Real>& w) { return loss(_eta[o], w); });
                     },
                     detail::min(critical, detail::constant<Real>(0.9999)));
         }
@@ -125,8 +125,7 @@ public:
               _valid(detail::is_off_horizon(wo)),
               _wo(detail::select(_valid, wo, Vec3<Real>(Real(0), Real(0), Real(1)))),
               _below(_wo.z < Real(0)),
-              _loss(lobe.loss(detail::select(_below, lobe._eta[1], lobe._eta[0]), _wo,
-                              detail::min(detail::abs(_wo.z), Real(1))))
+              _loss(lobe.loss(detail::select(_below, lobe._eta[1], lobe._eta[0]), _wo))
         {
             _valid = detail::both<Real>(_valid, _loss > Real(0));
             const Real passed = detail::select(_below, lobe._passed[1], lobe._passed[0]);
@@ -222,7 +221,7 @@ public:
             const Real scale =
                 detail::select(t.below, _lobe._inv_average[1], _lobe._inv_average[0]);
             return detail::select(t.reflected, _reflection, _transmission) *
-                   (_loss * scale * _lobe.loss(eta, t.wi, t.mu) * t.mu);
+                   (_loss * scale * _lobe.loss(eta, t.wi) * t.mu);
         }
         // Per steradian.
         Real density(const Terms& t) const
@@ -256,13 +255,11 @@ private:
 
     static Real total(const Color& c) { return c.x + c.y + c.z; }
 
-    // 1 - E^S of w, mu = |w.z| in [0, 1], seen from where eta is the index ahead over the one
-    // behind.
-    Real loss(Real eta, const Vec3<Real>& w, Real mu) const
+    // 1 - E^S of w, seen from where eta is the index ahead over the one behind.
+    Real loss(Real eta, const Vec3<Real>& w) const
     {
         if (!_bound) return Real(0);
-        return detail::select(_black, Real(0),
-                              Real(1) - _tables.albedo(_tables.width(_axes, eta, w), eta, mu));
+        return detail::select(_black, Real(0), Real(1) - _tables.albedo(_axes, eta, w));
     }
 
     DielectricTables _tables;

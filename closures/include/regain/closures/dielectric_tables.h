@@ -38,85 +38,43 @@
 /// E^S in the beta form falls to nothing at grazing angles, and so
 /// is tabulated as a logarithm.
 ///
-/// Of an anisotropic interface the tables are asked about one width, of its direction w:
+/// Of an anisotropic interface they are asked about one width, of its direction w, and what that
+/// leaves of E^S is one more table, over five axes: see dielectric_anisotropy.h. The reflected
+/// share goes by that width alone; E^S, where there is no such table, by
 ///
 ///   a^2 = R^2 + b ((ax w.x)^2 + (ay w.y)^2 - R^2 (w.x^2 + w.y^2)),   R^2 = (ax^2 + ay^2) / 2
 ///
 /// Near index 1 light goes straight on, and all masking is that of the width towards w: b = 1. What
 /// is reflected, or bent far, leaves at all azimuths: b = exp(-8 r), r = |eta_o - 1| / (eta_o + 1),
 /// and into the denser side, in the beta form, where what is transmitted is masked most,
-/// b = 1 - 1.2 r, 0 at least. The cosine stays that of w, for so does the critical one. Errors are
-/// in docs/methods.md: this is a help, not a solution.
+/// b = 1 - 1.2 r, 0 at least. Errors are in docs/methods.md.
 
 #pragma once
 
+#include <regain/closures/dielectric_anisotropy.h>
 #include <regain/closures/dielectric_fresnel.h>
-#include <regain/closures/table.h>
 
 REGAIN_NAMESPACE_BEGIN
 
-namespace detail {
-
-/// Where the critical cosine lies on the axis of side 1.
-constexpr double critical_coordinate = 15.0 / 31.0;
-
-/// The least alpha on the axis x of distributions with a tail.
-constexpr float tail_least_width = 0.05f;
-
-/// z above, of eta > 0.
-template <class Real>
-Real index_coordinate(Real eta)
+/// The widths of a distribution, for whoever keeps nothing else of it.
+template <class RealType>
+class GlassWidths
 {
-    return sqrt(sqrt(
-        min(abs(eta - Real(1)) / (eta + Real(1)) * constant<Real>(5.0 / 3.0), constant<Real>(1))));
-}
+public:
+    using Real = RealType;
+    template <class Distribution>
+    explicit GlassWidths(const Distribution& distribution)
+        : _x(distribution.alpha_x()),
+          _y(distribution.alpha_y()),
+          _mean(distribution.effective_alpha())
+    {}
+    Real alpha_x() const { return _x; }
+    Real alpha_y() const { return _y; }
+    Real effective_alpha() const { return _mean; }
 
-/// The same of E^S of side 1 in the beta form.
-template <class Real>
-Real near_index_coordinate(Real eta)
-{
-    const Real r =
-        sqrt(min(abs(eta - Real(1)) / (eta + Real(1)) * constant<Real>(5.0 / 3.0), Real(1)));
-    return log1p(Real(200) * r) * constant<Real>(1 / 5.303304908059076);
-}
-
-/// w above.
-template <class Real>
-Real fresnel_weight(Real alpha, Real eta)
-{
-    const Real k = abs((eta - Real(1)) * (eta + Real(1)));
-    return k / (k + alpha * alpha);
-}
-
-/// s above; mu in [0, 1], alpha in (0, 1].
-template <class Real>
-Real dielectric_cosine(Real mu, Real alpha, bool tail)
-{
-    const Real s = stretched_cosine(mu, alpha);
-    return tail ? Real(0.5f) * (s + Real(1) - sqrt(max(Real(1) - s, Real(0)))) : s;
-}
-
-/// x of side 1 above: mu in [0, 1], alpha in (0, 1], eta in (0, 1).
-template <class Real>
-Real critical_cosine_coordinate(Real mu, Real alpha, Real eta, bool tail = false,
-                                bool near_index = false)
-{
-    const Real one(1), tiny = constant<Real>(1e-6);
-    const Real kappa = sqrt(max((one - eta) * (one + eta), constant<Real>(1e-12)));
-    const Real below = min(mu / kappa, one), a = min(alpha / kappa, one);
-    const Real left = constant<Real>(0.6) * stretched_cosine(below, a) +
-                      constant<Real>(0.4) * (one - stretched_cosine(one - below, a));
-
-    const Real room = max(one - kappa, tiny);
-    const Real above = saturate((mu - kappa) / room);
-    const Real a_above = near_index ? alpha / (room + alpha * kappa) : min(alpha / room, one);
-    const Real right = dielectric_cosine(above, a_above, tail);
-
-    const Real c = constant<Real>(critical_coordinate);
-    return select(mu < kappa, c * left, c + (one - c) * right);
-}
-
-}  // namespace detail
+private:
+    Real _x, _y, _mean;
+};
 
 /// The tables of one distribution and one form of transmission shadowing. Without them the default
 /// is empty, and nothing may be looked up.
@@ -129,6 +87,8 @@ struct DielectricTables
     bool tail = false;         ///< x is that of distributions with a tail
     /// Reflected share of later bounces over (x, y, z), by side: see dielectric_tail.h.
     TableView later[2];
+    /// What anisotropic lobes take besides; nothing else reads it. It is kept by whoever made it.
+    const DielectricAnisotropy* anisotropy = nullptr;
 
     explicit operator bool() const { return E[0] && E[1] && R[0] && R[1]; }
 
@@ -158,13 +118,47 @@ struct DielectricTables
         return detail::min(logarithmic ? detail::exp(found) : found, Real(1));
     }
 
-    /// E^R / E^S, in [0, 1]; arguments as above.
+    /// E^S of a unit w of either side and of `widths`, a distribution or its axes; eta_o > 0 the
+    /// index ahead of w over the one behind.
+    template <class Widths, class Real>
+    Real albedo(const Widths& widths, Real eta_o, const Vec3<Real>& w) const
+    {
+        const Real x = widths.alpha_x(), y = widths.alpha_y();
+        const Real mu = detail::saturate(detail::abs(w.z));
+        const MaskOf<Real> same = x == y;
+        if (detail::all<Real>(same)) return albedo(widths.effective_alpha(), eta_o, mu);
+        if (!anisotropy) return albedo(width(widths, eta_o, w), eta_o, mu);
+
+        const AnisotropicGlassPlace<Real> place(x, y, w, eta_o);
+        const Real alpha = detail::select(same, widths.effective_alpha(), place.alpha);
+        const MaskOf<Real> dense_ahead = eta_o >= Real(1);
+        Real outside(0), inside(0);
+        if (detail::any<Real>(dense_ahead)) outside = anisotropy->change[0].at(place.x);
+        if (!detail::all<Real>(dense_ahead)) inside = anisotropy->change[1].at(place.x);
+        const Real change = detail::exp(
+            detail::select(same, Real(0), detail::select(dense_ahead, outside, inside)));
+        return detail::min(albedo(alpha, eta_o, mu) * change, Real(1));
+    }
+
+    /// E^R / E^S, in [0, 1]; arguments as of the first.
     template <class Real>
     Real reflected_share(Real alpha, Real eta_o, Real mu) const
     {
         const Real F = DielectricFresnel<Real>(eta_o).reflectance(mu);
         const Real w = detail::fresnel_weight(alpha, eta_o);
         return detail::saturate(w * F + look_up(R, false, alpha, eta_o, mu));
+    }
+
+    /// The same of a unit w of either side and of `widths`.
+    template <class Widths, class Real>
+    Real reflected_share(const Widths& widths, Real eta_o, const Vec3<Real>& w) const
+    {
+        const Real x = widths.alpha_x(), y = widths.alpha_y();
+        const Real mu = detail::min(detail::abs(w.z), Real(1));
+        const MaskOf<Real> same = x == y;
+        if (detail::all<Real>(same)) return reflected_share(widths.effective_alpha(), eta_o, mu);
+        const Real towards = AnisotropicGlassPlace<Real>::towards(x, y, w);
+        return reflected_share(detail::select(same, widths.effective_alpha(), towards), eta_o, mu);
     }
 
     /// The reflected share of all that leaves after two facets or more, in [0, 1]; arguments as

@@ -25,18 +25,22 @@
 /// is what the first bounce of the walk is, with `later`. A lobe that transmits by the correlated
 /// form gets no added lobes: they would continue another model.
 ///
-/// About the normal the added lobes are the same from all sides. Tints multiply the lobes once. A
-/// lobe of mode R or T gets its own part of both. Building a closure asks the tables 300 times; per
+/// About the normal the added lobes are the same from all sides. Of an anisotropic surface L_o
+/// depends on azimuth, too: <g> is then over azimuths besides, sampled is the mean over these, and
+/// r_o is that of the mean width. Tints multiply the lobes once. A lobe of mode R or T gets its own
+/// part of both. Building a closure asks the tables 300 times, of an anisotropic one 1050; per
 /// point and direction it is two look-ups.
 
 #pragma once
 
+#include <regain/closures/anisotropy.h>
 #include <regain/closures/dielectric_with_added_lobes.h>
 #include <regain/closures/missing_energy.h>
 
 REGAIN_NAMESPACE_BEGIN
 
-/// The added lobes alone: azimuthally symmetric, black for a flat surface and without tables.
+/// The added lobes alone: black for a flat surface and without tables; of an isotropic one
+/// symmetric about the normal.
 template <class DielectricType>
 class DielectricTailLobe
     : public Shorthands<DielectricTailLobe<DielectricType>, typename DielectricType::Real>
@@ -51,9 +55,7 @@ public:
     /// Of a dielectric with its tints and scatter mode. strength in [0, 1] scales the lobes;
     /// clamped, NaN becomes 0.
     DielectricTailLobe(const Dielectric& lobe, const DielectricTables& tables, Real strength)
-        : _tables(tables),
-          _alpha(lobe.distribution().effective_alpha()),
-          _black(lobe.distribution().is_delta())
+        : _tables(tables), _widths(lobe.distribution()), _black(lobe.distribution().is_delta())
     {
         const bool reflects = lobe.scatter_mode() != ScatterMode::T,
                    transmits = lobe.scatter_mode() != ScatterMode::R;
@@ -67,7 +69,7 @@ public:
             _eta[o] = index[o].eta;
             _scale[o] = Real(1);
         }
-        if (_bound) balance(index);
+        if (_bound) balance(index, DirectionAxes<Real>(lobe.distribution()));
 
         const Real s = detail::saturate(strength);
         _reflection = reflects ? lobe.reflection_tint() * s : Color(Real(0));
@@ -82,8 +84,16 @@ public:
         Real reflected, transmitted;
     };
 
-    /// R_o and T_o at mu in [0, 1], of a wo above (0) or below (1).
-    Split split(int side, Real mu) const { return split(_eta[side], _scale[side], mu); }
+    /// R_o and T_o of a unit wo above or below.
+    Split split(const Vec3<Real>& wo) const
+    {
+        const Mask below = wo.z < Real(0);
+        const Split s = looked_up(detail::select(below, _eta[1], _eta[0]), wo);
+        const Real lost = s.reflected + s.transmitted,
+                   T = detail::min(detail::select(below, _scale[1], _scale[0]) * s.transmitted,
+                                   lost);
+        return {lost - T, T};
+    }
     /// s_o of that side.
     Real scale(int side) const { return _scale[side]; }
 
@@ -92,6 +102,7 @@ public:
         Traits t;
         t.reciprocal = true;
         t.exact_pdf = true;
+        t.anisotropic = !detail::all<Real>(_widths.alpha_x() == _widths.alpha_y());
         t.transmissive = detail::any<Real>(total(_transmission) > Real(0));
         t.random_numbers = random_numbers;
         return t;
@@ -105,7 +116,7 @@ public:
               _valid(detail::is_off_horizon(wo)),
               _wo(detail::select(_valid, wo, Vec3<Real>(Real(0), Real(0), Real(1)))),
               _below(_wo.z < Real(0)),
-              _split(lobe.split(_below, detail::min(detail::abs(_wo.z), Real(1))))
+              _split(lobe.split(_wo))
         {
             const Color none(Real(0));
             _reflection = detail::select(_valid, lobe._reflection, none);
@@ -175,13 +186,15 @@ public:
             Mask valid;
             Mask below;      // wi is
             Mask reflected;  // or else transmitted
-            Real mu;         // |cos theta_i|
+            Vec3<Real> wi;
+            Real mu;  // |cos theta_i|
         };
         Terms terms(const Vec3<Real>& direction) const
         {
             Terms t;
             const Mask possible = detail::both<Real>(_valid, detail::is_off_horizon(direction));
-            const Real z = detail::select(possible, direction.z, Real(1));
+            t.wi = detail::select(possible, direction, Vec3<Real>(Real(0), Real(0), Real(1)));
+            const Real z = t.wi.z;
             t.below = z < Real(0);
             t.reflected = !detail::differ<Real>(t.below, _below);
             t.mu = detail::min(detail::abs(z), Real(1));
@@ -194,7 +207,7 @@ public:
         // f cos theta_i.
         Color value(const Terms& t) const
         {
-            const Split i = _lobe.split(t.below, t.mu);
+            const Split i = _lobe.split(t.wi);
             const auto of_side = [&t](const Real(&side)[2]) {
                 return detail::select(t.below, side[1], side[0]);
             };
@@ -244,30 +257,25 @@ private:
 
     static Real total(const Color& c) { return c.x + c.y + c.z; }
 
-    Split split(const Mask& below, Real mu) const
+    // 1 - E^S of a unit w, eta the index ahead over the one behind.
+    Real loss(Real eta, const Vec3<Real>& w) const
     {
-        return split(detail::select(below, _eta[1], _eta[0]),
-                     detail::select(below, _scale[1], _scale[0]), mu);
+        return detail::select(_black, Real(0), Real(1) - _tables.albedo(_widths, eta, w));
     }
-    Split split(Real eta, Real scale, Real mu) const
+    // Before s: L r and L (1 - r).
+    Split divided(Real lost, Real eta, Real mu) const
     {
-        const Split s = looked_up(eta, mu);
-        const Real lost = s.reflected + s.transmitted, T = detail::min(scale * s.transmitted, lost);
-        return {lost - T, T};
+        const Real R = lost * _tables.later_reflected_share(_widths.effective_alpha(), eta, mu);
+        return {R, lost - R};
     }
-    // Before s: (1 - E^S) r and (1 - E^S) (1 - r), seen from where eta is the index ahead over the
-    // one behind.
-    Split looked_up(Real eta, Real mu) const
+    Split looked_up(Real eta, const Vec3<Real>& w) const
     {
         if (!_bound) return {Real(0), Real(0)};
-        const Real lost =
-            detail::select(_black, Real(0), Real(1) - _tables.albedo(_alpha, eta, mu));
-        const Real R = lost * _tables.later_reflected_share(_alpha, eta, mu);
-        return {R, lost - R};
+        return divided(loss(eta, w), eta, detail::min(detail::abs(w.z), Real(1)));
     }
 
     // Finds s, and what is sampled.
-    void balance(const RelativeIndex<Real> (&index)[2])
+    void balance(const RelativeIndex<Real> (&index)[2], const DirectionAxes<Real>& axes)
     {
         const Real tiny = detail::constant<Real>(1e-30), one(1);
         // Between nodes that see nothing missing there may be something.
@@ -279,7 +287,7 @@ private:
         // r changes about the critical cosine as fast as that is small, however wide the loss is.
         const Real k = detail::sqrt(detail::abs(index[0].square_minus_one())) +
                        detail::constant<Real>(0.003),
-                   width = _alpha * k / (k + Real(4) * _alpha);
+                   alpha = _widths.effective_alpha(), width = alpha * k / (k + Real(4) * alpha);
         Real critical[2], most[2], average[2];
         for (int o = 0; o < 2; ++o)
         {
@@ -292,7 +300,10 @@ private:
             const Missing transmitted(
                 width,
                 [&](Real mu) {
-                    const Split s = looked_up(_eta[o], mu);
+                    // All that is asked for is in proportion to the loss, so its mean will do.
+                    const Real mean = axes.azimuth_mean(
+                        mu, [&](const Vec3<Real>& w) { return loss(_eta[o], w); });
+                    const Split s = divided(mean, _eta[o], mu);
                     const Real lost = detail::max(s.reflected + s.transmitted, tiny);
                     largest_share = detail::max(largest_share, s.transmitted / lost);
                     found[o][place++] = s;
@@ -336,7 +347,7 @@ private:
     }
 
     DielectricTables _tables;
-    Real _alpha;
+    GlassWidths<Real> _widths;
     Mask _black;
     bool _bound;
     // By side of wo: above, below.

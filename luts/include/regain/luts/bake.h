@@ -11,6 +11,7 @@
 ///                                             and std anisotropy
 ///     DISTRIBUTION_QUANTITY_SHADOWING_SIDE    E_S, R_share; correlated, beta; outside, inside
 ///     DISTRIBUTION_QUANTITY_SIDE              R_later; outside, inside
+///     DISTRIBUTION_anisotropy_SHADOWING_SIDE  of ggx and beckmann: dielectric_anisotropy.h
 /// where in the latter kinds gtr and std are followed by one gamma, gtr_1.3_E_S_beta_inside: over
 /// gamma, too, the table would have four axes.
 
@@ -52,6 +53,10 @@ REGAIN_LUTS_API std::vector<std::string> dielectric_table_names(const std::strin
 REGAIN_LUTS_API std::vector<std::string> later_split_table_names(const std::string& distribution,
                                                                  double gamma = 0);
 
+/// What its anisotropic glass takes besides; none of gtr and std.
+REGAIN_LUTS_API std::vector<std::string> dielectric_anisotropy_table_names(
+    const std::string& distribution);
+
 /// Throws std::invalid_argument, which says what names there are, unless bake knows this one.
 REGAIN_LUTS_API void require_bakeable(const std::string& name);
 
@@ -81,7 +86,8 @@ REGAIN_LUTS_API double exact_value(const std::string& name, const TablePoint& at
 
 /// Whether the table's error is promised at a point: of q_ms and mu_ms from alpha 0.1 and mu 0.02
 /// on, of R_later from alpha 0.5 and mu 0.05 on, of anisotropy where the wider alpha is 2e-3 and mu
-/// 5e-3 or more, of the anisotropy of balances where both are 5e-3 or more, else of distributions
+/// 5e-3 or more, of the anisotropy of balances where both are 5e-3 or more, of that of glass from
+/// mu 0.03 on where E^S is above 0.1, else of distributions
 /// with a tail from alpha 5e-4 and mu 7e-4 on, of dielectrics from mu 0.018 on, of anything else
 /// everywhere.
 REGAIN_LUTS_API bool is_error_promised(const std::string& name, const TablePoint& at);

@@ -68,6 +68,12 @@ REGAIN_LUTS_API DielectricTables dielectric_tables(const std::string& distributi
 REGAIN_LUTS_API void add_later_split(DielectricTables& tables, const std::string& distribution,
                                      double gamma = 0);
 
+/// Adds what anisotropic lobes of ggx and beckmann take of the tables of that form of transmission
+/// shadowing, see regain/closures/dielectric_anisotropy.h, and of gtr and std nothing; errors as
+/// above. It stays where it is until the process ends.
+REGAIN_LUTS_API void add_anisotropy(DielectricTables& tables, const std::string& distribution,
+                                    TransmissionShadowing shadowing);
+
 /// One table by its name, compiled in or loaded; errors as above.
 REGAIN_LUTS_API TableView table_named(const std::string& name);
 

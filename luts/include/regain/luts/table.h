@@ -25,8 +25,8 @@ constexpr int table_definition = 2;
 /// What a table is; written whole into the header of its EXR file.
 struct TableInfo
 {
-    /// "E_ss", "E_avg", "falloff" or "dip", as in MicrofacetTables; "E_S", "R_share" or "R_later"
-    /// as in DielectricTables.
+    /// "E_ss", "E_avg", "falloff" or "dip", as in MicrofacetTables; "E_S", "R_share", "R_later" or
+    /// "anisotropy" as in DielectricTables.
     std::string quantity;
     std::string distribution;            ///< "ggx", "beckmann", "gtr" or "std"
     double gamma = 0;                    ///< tail parameter, 0 where it is an axis or there is none

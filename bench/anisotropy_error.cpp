@@ -3,7 +3,7 @@
 
 // How far the compensation of anisotropic lobes is off: the tables of docs/methods.md, Anisotropy.
 //
-//   anisotropy_error [ggx] [beckmann] [std] [gtr] [balanced] [glass]
+//   anisotropy_error [ggx] [beckmann] [std] [gtr] [balanced]
 //
 // Largest |1 - E| of the white furnace, F = 1, by quadrature through eval, over widths of which the
 // wider is 0.01 to 1, cosines from 0.01 to 1, azimuths from the one axis to the other, and either
@@ -14,7 +14,6 @@
 #include <regain/closures/beckmann.h>
 #include <regain/closures/compensated.h>
 #include <regain/closures/constant_fresnel.h>
-#include <regain/closures/dielectric_gain.h>
 #include <regain/closures/fitted_tail.h>
 #include <regain/closures/gtr.h>
 #include <regain/closures/kulla_conty.h>
@@ -242,64 +241,6 @@ void report_balance(const std::string& name, const std::string& label,
     }
 }
 
-// What glass returns in all, from a grid of samples of each of its lobes; and the error of its
-// gain, by one width and by that of the tables.
-template <class Distribution>
-void report_glass(const std::string& name, const std::string& label)
-{
-    const Color3<double> one(1.0);
-    constexpr int rows = 48;
-    for (const auto form : {TransmissionShadowing::correlated, TransmissionShadowing::beta})
-    {
-        const bool beta = form == TransmissionShadowing::beta;
-        const DielectricTables tables = luts::dielectric_tables(name, form);
-        for (const double eta : {1.05, 1.5, 2.5})
-            for (const int side : {1, -1})
-                for (const double ratio : {2.0, 10.0})
-                {
-                    double one_width = 0, ours = 0;
-                    for (const double alpha : {0.05, 0.2, 0.5, 1.0})
-                        for (const double mu : {0.03, 0.1, 0.25, 0.5, 0.75, 1.0})
-                            for (const double part : {0.0, 0.3, 0.6, 0.9, 1.0})
-                            {
-                                const Distribution normals(alpha, alpha / ratio);
-                                const double s = std::sqrt((1 - mu) * (1 + mu)),
-                                             phi = 0.5 * pi * part;
-                                const Vec3<double> wo(s * std::cos(phi), s * std::sin(phi),
-                                                      side * mu);
-                                double E = 0;
-                                for (const auto mode : {ScatterMode::R, ScatterMode::T})
-                                {
-                                    const auto lobe =
-                                        Dielectric<Distribution>(normals, eta, mode, one, one, form)
-                                            .prepare(wo);
-                                    for (int i = 0; i < rows; ++i)
-                                        for (int j = 0; j < rows; ++j)
-                                        {
-                                            const auto found = lobe.sample(Vec3<double>(
-                                                (i + 0.5) / rows, (j + 0.5) / rows, 0.5));
-                                            if (found.valid) E += found.weight.x / (rows * rows);
-                                        }
-                                }
-                                const double index = side > 0 ? eta : 1 / eta;
-                                ours = std::max(
-                                    ours,
-                                    std::abs(E / tables.albedo(tables.width(normals, index, wo),
-                                                               index, mu) -
-                                             1));
-                                one_width = std::max(
-                                    one_width, std::abs(E / tables.albedo(normals.effective_alpha(),
-                                                                          index, mu) -
-                                                        1));
-                            }
-                    std::printf("| %s, %s | %g | %g | %.3f | %.3f |\n", label.c_str(),
-                                beta ? "beta" : "correlated", side > 0 ? eta : 1 / eta, ratio,
-                                one_width, ours);
-                    std::fflush(stdout);
-                }
-    }
-}
-
 }  // namespace
 
 int main(int argc, char** argv)
@@ -339,10 +280,5 @@ int main(int argc, char** argv)
                 "gtr", "GTR " + std::to_string(gamma).substr(0, 3),
                 [=](double x, double y) { return GTR<double>(x, y, gamma); });
     }
-
-    if (!wanted("glass")) return 0;
-    std::printf("\n| glass | eta_o | ratio | one width | gain |\n|---|---|---|---|---|\n");
-    report_glass<GGX<double>>("ggx", "GGX");
-    report_glass<Beckmann<double>>("beckmann", "Beckmann");
     return 0;
 }

@@ -87,9 +87,8 @@ REGAIN_LUTS_API double exact_value(const std::string& name, const TablePoint& at
 /// Whether the table's error is promised at a point: of q_ms and mu_ms from alpha 0.1 and mu 0.02
 /// on, of R_later from alpha 0.5 and mu 0.05 on, of anisotropy where the wider alpha is 2e-3 and mu
 /// 5e-3 or more, of the anisotropy of balances where both are 5e-3 or more, of that of glass from
-/// mu 0.03 on where E^S is above 0.1, else of distributions
-/// with a tail from alpha 5e-4 and mu 7e-4 on, of dielectrics from mu 0.018 on, of anything else
-/// everywhere.
+/// mu 0.03 on where E^S is above 0.1, else of distributions with a tail from alpha 5e-4 and mu 7e-4
+/// on, of dielectrics from mu 0.018 on, of anything else everywhere.
 REGAIN_LUTS_API bool is_error_promised(const std::string& name, const TablePoint& at);
 
 /// No error is promised where the quantity itself is below this: 0.1 of E_S in the beta form, which

@@ -96,6 +96,30 @@ Color3<Real> evaluate(const Prepared& prepared, const Vec3<Real>& wi,
 
 namespace detail {
 
+template <class Prepared, class = void>
+struct ExpectsAlbedo : std::false_type
+{};
+template <class Prepared>
+struct ExpectsAlbedo<Prepared,
+                     std::void_t<decltype(std::declval<const Prepared&>().expected_albedo())>>
+    : std::true_type
+{};
+
+}  // namespace detail
+
+/// About what albedo() is, by which lobes are picked: a prepared closure whose albedo takes long
+/// has a guess of its own, expected_albedo().
+template <class Prepared>
+auto expected_albedo(const Prepared& prepared)
+{
+    if constexpr (detail::ExpectsAlbedo<Prepared>::value)
+        return prepared.expected_albedo();
+    else
+        return prepared.albedo();
+}
+
+namespace detail {
+
 /// Two random numbers as three, for a closure that reads no more.
 template <class Closure, class Real>
 Vec3<Real> two_numbers(const Vec2<Real>& u)

@@ -79,6 +79,9 @@ public:
                 return mean_gain();
         }
 
+        /// Without the gain of the pair.
+        Albedo<Real> expected_albedo() const { return regain::expected_albedo(_lobe); }
+
     private:
         // The lobe's albedo times the mean gain over its samples, each by its weight: of what the
         // samples know of the lobe itself nothing is left in the ratio.

@@ -27,6 +27,7 @@
 
 #include <regain/closures/closure.h>
 #include <regain/closures/compensated.h>
+#include <regain/closures/sum.h>
 
 REGAIN_NAMESPACE_BEGIN
 
@@ -167,11 +168,18 @@ const Closure& for_light_path(const Closure& closure)
 {
     return closure;
 }
+template <class First, class Second>
+auto for_light_path(const Sum<First, Second>& closure);
 template <class Lobe, class Gain>
-Compensated<Lobe, ReversedGain<Gain, typename Lobe::Real>> for_light_path(
-    const Compensated<Lobe, Gain>& closure)
+auto for_light_path(const Compensated<Lobe, Gain>& closure)
 {
-    return reversed(closure);
+    const auto lobe = for_light_path(closure.lobe());
+    return reversed(compensated(lobe, closure.gain()));
+}
+template <class First, class Second>
+auto for_light_path(const Sum<First, Second>& closure)
+{
+    return sum(for_light_path(closure.first()), for_light_path(closure.second()));
 }
 
 REGAIN_NAMESPACE_END

@@ -62,11 +62,12 @@ public:
         {}
 
         Prepared(const typename First::Prepared& first, const typename Second::Prepared& second)
-            : Prepared(first, second, total(first.albedo()), total(second.albedo()))
+            : Prepared(first, second, total(regain::expected_albedo(first)),
+                       total(regain::expected_albedo(second)))
         {}
 
-        /// `energy_1` and `energy_2`, not negative, say how often each lobe is chosen. Where
-        /// energy_2 is 0 the second is never: it has to be black then.
+        /// `energy_1` and `energy_2`, not negative, say how often each lobe is chosen. One whose
+        /// energy is 0 never is: it has to be black then.
         Prepared(const typename First::Prepared& first, const typename Second::Prepared& second,
                  Real energy_1, Real energy_2)
             : _first(first), _second(second)
@@ -74,9 +75,9 @@ public:
             // An estimate is no reason to starve a lobe.
             const Real share =
                 energy_1 / detail::max(energy_1 + energy_2, detail::constant<Real>(1e-30));
-            _p = detail::select(
-                energy_2 > Real(0),
-                detail::sanitised(share, least_probability, 1 - least_probability, 0.5), Real(1));
+            _p = detail::sanitised(share, least_probability, 1 - least_probability, 0.5);
+            _p = detail::select(energy_1 > Real(0), _p, Real(0));
+            _p = detail::select(energy_2 > Real(0), _p, Real(1));
         }
 
         decltype(auto) wo() const { return _first.wo(); }
@@ -137,6 +138,13 @@ public:
         Albedo<Real> albedo() const
         {
             const Albedo<Real> a = _first.albedo(), b = _second.albedo();
+            return {a.reflect + b.reflect, a.transmit + b.transmit};
+        }
+
+        Albedo<Real> expected_albedo() const
+        {
+            const Albedo<Real> a = regain::expected_albedo(_first),
+                               b = regain::expected_albedo(_second);
             return {a.reflect + b.reflect, a.transmit + b.transmit};
         }
 

@@ -38,6 +38,9 @@ struct Arguments
     std::vector<double> alpha, F0, F82, n, k, constant, gamma, eta;
     std::vector<double> mu{0.01, 0.1, 0.2, 0.5, 0.8, 1};
     double strength = 1;
+    std::vector<double> color, roughness;
+    std::string mode;
+    bool energy_compensation = false;
     bool thin_walled = false;
     std::uint64_t order = 0;
     std::uint64_t samples = AlbedoSettings{}.samples, seed = 0;
@@ -61,8 +64,12 @@ Json as_json(const Arguments& a)
         json["closure"] = name(!a.eta.empty() ? Lobe::dielectric
                                : a.F0.empty() ? Lobe::conductor
                                               : Lobe::generalized_schlick);
-    if (json["closure"] != name(Lobe::sheen) || a.distribution != "ggx")
+    if (lobe_has_microfacets(json["closure"].get<std::string>()) || a.distribution != "ggx")
         json["distribution"] = a.distribution;
+    if (!a.color.empty()) json["color"] = channels(a.color);
+    if (!a.roughness.empty()) json["roughness"] = a.roughness[0];
+    if (!a.mode.empty()) json["mode"] = a.mode;
+    if (a.energy_compensation) json["energy_compensation"] = true;
     if (!a.gamma.empty()) json["gamma"] = a.gamma[0];
     if (!a.eta.empty()) json["fresnel"]["eta"] = a.eta[0];
     if (!a.scatter_mode.empty()) json["scatter_mode"] = a.scatter_mode;
@@ -85,8 +92,7 @@ AlbedoSettings settings_of(const Arguments& a, const ClosureSpec& spec)
     AlbedoSettings settings;
     settings.how = default_albedo_method(spec);
     if (!a.how.empty())
-        settings.how = static_cast<AlbedoMethod>(
-            choose("how", a.how, albedo_methods, std::array<std::string_view, 0>{}));
+        settings.how = static_cast<AlbedoMethod>(choose("how", a.how, albedo_methods));
     if (a.order > 0)
     {
         if (!spec.is_stochastic()) throw BadInput("--order belongs to the method walk");
@@ -188,10 +194,15 @@ void add_albedo(CLI::App& app, int& exit_code)
     auto a = std::make_shared<Arguments>();
     command->add_option("--closure", a->closure,
                         "conductor (default), generalized_schlick (default with --f0), "
-                        "dielectric (default with --eta), sheen");
+                        "dielectric (default with --eta), sheen, oren_nayar_diffuse, "
+                        "burley_diffuse, subsurface, translucent, transparent");
     command->add_option("--distribution", a->distribution, "ggx (default), beckmann, gtr, std");
     add_numbers(command, "--gamma", a->gamma, 1, "tail of gtr (up to 10) and std (1.51 to 100); 2");
     add_numbers(command, "--alpha", a->alpha, 2, "width in [0, 1], or alpha_x,alpha_y; 0.05");
+    add_numbers(command, "--color", a->color, 3, "of what has no microfacets");
+    add_numbers(command, "--roughness", a->roughness, 1, "of the rough diffuse ones and of cloth");
+    command->add_option("--mode", a->mode, "of sheen: burley (default), conty_kulla, zeltner");
+    command->add_flag("--energy-compensation", a->energy_compensation, "of oren_nayar_diffuse");
     add_numbers(command, "--f0", a->F0, 3, "Schlick: colour at normal incidence");
     add_numbers(command, "--f82", a->F82, 3, "Schlick: tint at 82 degrees");
     add_numbers(command, "--n", a->n, 3, "conductor: index of refraction");

@@ -4,7 +4,10 @@
 #include "any_closure.h"
 
 #include "closures_by_distribution.h"
+#include "combined_closure.h"
 #include "errors.h"
+
+#include <fmt/format.h>
 
 #include <stdexcept>
 
@@ -13,6 +16,16 @@ namespace regain::tools {
 std::unique_ptr<AnyClosure> make_closure(const ClosureSpec& spec, bool tabulated_albedo)
 {
     using shaders::DistributionKind;
+    if (spec.combination) return make_combined_closure(spec);
+    if (spec.plain)
+    {
+        const auto* gain = std::get_if<Method>(&spec.method);
+        if (!gain || *gain != Method::none)
+            throw BadInput(fmt::format(
+                "the method {} does not go with {}, which has no microfacets; accepted: none",
+                shaders::name(spec.method), name(spec.lobe)));
+        return make_plain_closure(spec);
+    }
     shaders::MicrofacetMaterial material = spec.material();
     try
     {

@@ -13,26 +13,36 @@ namespace {
 using Names = std::string_view;
 using shaders::DistributionKind;
 
-constexpr std::array<Names, 4> lobes{"conductor", "generalized_schlick", "dielectric", "sheen"};
-constexpr std::array<Names, 7> planned_lobes{
-    "oren_nayar_diffuse", "burley_diffuse", "translucent", "layer", "mix", "add", "multiply"};
+constexpr std::array<Names, 13> lobes{"conductor",
+                                      "generalized_schlick",
+                                      "dielectric",
+                                      "sheen",
+                                      "oren_nayar_diffuse",
+                                      "burley_diffuse",
+                                      "subsurface",
+                                      "translucent",
+                                      "transparent",
+                                      "layer",
+                                      "mix",
+                                      "add",
+                                      "multiply"};
+constexpr std::array<Names, 3> sheen_modes{"burley", "conty_kulla", "zeltner"};
 constexpr std::array<Names, 4> distributions{"ggx", "beckmann", "gtr", "std"};
 constexpr std::array<Names, 2> precisions{"float", "double"};
 constexpr std::array<Names, 2> transports{"importance", "radiance"};
 constexpr std::array<Names, 3> scatter_modes{"R", "T", "RT"};
 constexpr std::array<Names, 1> reflection_alone{"R"};
 constexpr std::array<Names, 2> shadowings{"correlated", "beta"};
-constexpr std::array<Names, 0> nothing_planned{};
 
 // What the closures accept without clamping.
 constexpr Range gtr_range{gtr_min_gamma, gtr_max_gamma}, std_range{std_min_gamma, std_max_gamma};
-constexpr Range tint_range{0, 100};
+constexpr Range tint_range{0, 100}, weight_range{0, 1e6};
 
 shaders::Compensation read_method(Names given)
 {
     if (const auto method = shaders::compensation_named(given)) return *method;
     const auto& names = shaders::compensation_names();
-    choose("method", given, names.data(), names.size(), nullptr, 0);  // throws
+    choose("method", given, names.data(), names.size());  // throws
     return Method::none;
 }
 
@@ -50,7 +60,7 @@ FresnelSpec read_fresnel_of(Lobe lobe, Fields& fields)
         case Lobe::conductor: return read_conductor_parameters(fields);
         case Lobe::generalized_schlick: return read_schlick_parameters(fields);
         case Lobe::dielectric: return read_dielectric_parameters(fields);
-        case Lobe::sheen: break;
+        default: break;
     }
     return ConstantParameters{};
 }
@@ -58,8 +68,8 @@ FresnelSpec read_fresnel_of(Lobe lobe, Fields& fields)
 void read_distribution(Fields& fields, ClosureSpec& spec)
 {
     if (const auto given = fields.text("distribution"))
-        spec.distribution = static_cast<DistributionKind>(
-            choose("distribution", *given, distributions, nothing_planned));
+        spec.distribution =
+            static_cast<DistributionKind>(choose("distribution", *given, distributions));
     if (!shaders::has_gamma(spec.distribution))
         fields.reject("gamma", "it belongs to the distributions gtr and std");
     else
@@ -78,8 +88,7 @@ void read_interface(Fields& fields, ClosureSpec& spec)
     if (!eta) throw BadInput("the closure dielectric takes a 'fresnel' with eta, and no other");
     i.eta = eta->eta;
     if (const auto given = fields.text("scatter_mode"))
-        i.mode = static_cast<ScatterMode>(
-            choose("scatter_mode", *given, scatter_modes, nothing_planned));
+        i.mode = static_cast<ScatterMode>(choose("scatter_mode", *given, scatter_modes));
     i.thin_walled = fields.flag("thin_walled").value_or(false);
     i.tint = fields.color("tint", unit_range).value_or(i.tint);
     if (i.thin_walled)
@@ -95,7 +104,7 @@ void read_interface(Fields& fields, ClosureSpec& spec)
     }
     else if (const auto given = fields.text("transmission_shadowing"))
         i.shadowing = static_cast<TransmissionShadowing>(
-            choose("transmission_shadowing", *given, shadowings, nothing_planned));
+            choose("transmission_shadowing", *given, shadowings));
 }
 
 void read_reflection(Fields& fields, const ClosureSpec& spec)
@@ -103,14 +112,136 @@ void read_reflection(Fields& fields, const ClosureSpec& spec)
     if (std::holds_alternative<DielectricParameters>(spec.fresnel))
         throw BadInput("a 'fresnel' with eta belongs to the closure dielectric");
     if (const auto given = fields.text("scatter_mode"))
-        choose("scatter_mode of this closure", *given, reflection_alone, nothing_planned);
+        choose("scatter_mode of this closure", *given, reflection_alone);
     for (const char* field : {"transmission_shadowing", "thin_walled", "tint"})
         fields.reject(field, "it belongs to the closure dielectric");
+}
+
+// Closures without microfacets.
+void read_plain(Fields& fields, ClosureSpec& spec)
+{
+    const std::string why = fmt::format("the closure {} has no microfacets", name(spec.lobe));
+    for (const char* field : {"distribution", "gamma", "alpha", "fresnel"})
+        fields.reject(field, why.c_str());
+    if (fields.text("scatter_mode"))
+        throw BadInput("'scatter_mode' belongs to the closure dielectric");
+    read_reflection(fields, spec);
+
+    if (spec.lobe == Lobe::sheen)
+    {
+        const auto given = fields.text("mode");
+        const std::size_t mode = given ? choose("mode", *given, sheen_modes) : 0;
+        if (mode == 0)
+        {
+            fields.reject("roughness", "it belongs to the modes conty_kulla and zeltner");
+            spec.sheen.color = fields.color("color", tint_range).value_or(spec.sheen.color);
+            spec.sheen.weight = fields.number("weight", unit_range).value_or(spec.sheen.weight);
+            return;
+        }
+        fields.reject("weight", "it belongs to the mode burley");
+        shaders::ClothSurface cloth;
+        cloth.mode = mode == 1 ? shaders::ClothMode::conty_kulla : shaders::ClothMode::zeltner;
+        cloth.color = fields.color("color", unit_range).value_or(cloth.color);
+        cloth.roughness = fields.number("roughness", unit_range).value_or(cloth.roughness);
+        spec.plain = shaders::PlainMaterial{cloth};
+        return;
+    }
+
+    const auto color = fields.color("color", unit_range);
+    const auto with_color = [&](auto surface) {
+        surface.color = color.value_or(surface.color);
+        return surface;
+    };
+    const auto with_roughness = [&](auto surface) {
+        surface.roughness = fields.number("roughness", unit_range).value_or(surface.roughness);
+        return with_color(surface);
+    };
+    switch (spec.lobe)
+    {
+        case Lobe::oren_nayar_diffuse: {
+            auto surface = with_roughness(shaders::OrenNayarSurface{});
+            surface.energy_compensation =
+                fields.flag("energy_compensation").value_or(surface.energy_compensation);
+            spec.plain = shaders::PlainMaterial{surface};
+            break;
+        }
+        case Lobe::burley_diffuse:
+            spec.plain = shaders::PlainMaterial{with_roughness(shaders::BurleyDiffuseSurface{})};
+            break;
+        case Lobe::subsurface:
+            spec.plain = shaders::PlainMaterial{with_color(shaders::SubsurfaceSurface{})};
+            break;
+        case Lobe::translucent:
+            spec.plain = shaders::PlainMaterial{with_color(shaders::TranslucentSurface{})};
+            break;
+        default: spec.plain = shaders::PlainMaterial{with_color(shaders::TransparentSurface{})};
+    }
+}
+
+std::shared_ptr<const ClosureSpec> read_part(Fields& fields, const char* field)
+{
+    const Json* object = fields.object(field);
+    if (!object) fields.missing("'" + std::string(field) + "'");
+    Fields inside(*object, field);
+    for (const char* of_all : {"precision", "transport"})
+        inside.reject(of_all, "it belongs to the whole closure");
+    auto part = std::make_shared<const ClosureSpec>(read_closure_spec(inside, true));
+    inside.finish();
+    return part;
+}
+
+void read_combination(Fields& fields, ClosureSpec& spec)
+{
+    for (const char* field : {"distribution", "gamma", "alpha", "fresnel", "method", "strength"})
+        fields.reject(field, "it belongs to the parts of the combination");
+    Combination c;
+    c.kind =
+        static_cast<CombinationKind>(static_cast<int>(spec.lobe) - static_cast<int>(Lobe::layer));
+    switch (c.kind)
+    {
+        case CombinationKind::layer:
+            c.first = read_part(fields, "top");
+            c.second = read_part(fields, "base");
+            break;
+        case CombinationKind::mix: {
+            c.first = read_part(fields, "fg");
+            c.second = read_part(fields, "bg");
+            const auto amount = fields.number("mix", unit_range);
+            if (!amount) fields.missing("'mix'");
+            c.weight = ColorD(*amount);
+            break;
+        }
+        case CombinationKind::add:
+            c.first = read_part(fields, "in1");
+            c.second = read_part(fields, "in2");
+            break;
+        case CombinationKind::multiply: {
+            c.first = read_part(fields, "in1");
+            if (const auto weight = fields.grey_or_color("in2", weight_range))
+                c.weight = *weight;
+            else
+                fields.missing("'in2'");
+            break;
+        }
+    }
+    spec.combination = std::move(c);
+}
+
+bool is_microfacet_lobe(Lobe lobe)
+{
+    return lobe == Lobe::conductor || lobe == Lobe::generalized_schlick || lobe == Lobe::dielectric;
 }
 
 }  // namespace
 
 std::string_view name(Lobe lobe) { return lobes[static_cast<std::size_t>(lobe)]; }
+
+bool lobe_has_microfacets(std::string_view lobe)
+{
+    for (std::size_t i = 0; i < lobes.size(); ++i)
+        if (lobes[i] == lobe) return is_microfacet_lobe(static_cast<Lobe>(i));
+    return true;
+}
 
 shaders::MicrofacetMaterial ClosureSpec::material() const
 {
@@ -136,6 +267,8 @@ shaders::MicrofacetMaterial ClosureSpec::material() const
 
 std::size_t ClosureSpec::random_numbers() const
 {
+    if (combination) return 3;
+    if (plain) return lobe == Lobe::oren_nayar_diffuse || lobe == Lobe::subsurface ? 3 : 2;
     const bool two = std::holds_alternative<Method>(method) && lobe != Lobe::dielectric &&
                      lobe != Lobe::sheen && !shaders::has_gamma(distribution);
     return two ? 2 : 3;
@@ -145,7 +278,7 @@ ClosureSpec read_closure_spec(Fields& fields, bool closure_needed)
 {
     ClosureSpec spec;
     if (const auto given = fields.text("closure"))
-        spec.lobe = static_cast<Lobe>(choose("closure", *given, lobes, planned_lobes));
+        spec.lobe = static_cast<Lobe>(choose("closure", *given, lobes));
     else if (closure_needed)
         fields.missing("'closure'");
 
@@ -156,14 +289,10 @@ ClosureSpec read_closure_spec(Fields& fields, bool closure_needed)
         throw BadInput(
             fmt::format("'strength' is {}; accepted: 0 or 1 for the method walk", spec.strength));
 
-    if (spec.lobe == Lobe::sheen)
-    {
-        for (const char* field : {"distribution", "gamma", "alpha", "fresnel"})
-            fields.reject(field, "the closure sheen has no microfacets");
-        spec.sheen.color = fields.color("color", tint_range).value_or(spec.sheen.color);
-        spec.sheen.weight = fields.number("weight", unit_range).value_or(spec.sheen.weight);
-        read_reflection(fields, spec);
-    }
+    if (spec.lobe >= Lobe::layer)
+        read_combination(fields, spec);
+    else if (!is_microfacet_lobe(spec.lobe))
+        read_plain(fields, spec);
     else
     {
         read_distribution(fields, spec);
@@ -175,11 +304,9 @@ ClosureSpec read_closure_spec(Fields& fields, bool closure_needed)
     }
 
     if (const auto given = fields.text("transport"))
-        spec.transport =
-            static_cast<Transport>(choose("transport", *given, transports, nothing_planned));
+        spec.transport = static_cast<Transport>(choose("transport", *given, transports));
     if (const auto given = fields.text("precision"))
-        spec.precision =
-            static_cast<Precision>(choose("precision", *given, precisions, nothing_planned));
+        spec.precision = static_cast<Precision>(choose("precision", *given, precisions));
     return spec;
 }
 

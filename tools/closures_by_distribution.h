@@ -19,5 +19,7 @@ std::unique_ptr<AnyClosure> make_gtr_closure(const shaders::MicrofacetMaterial&,
                                              const ClosureSpec&);
 std::unique_ptr<AnyClosure> make_std_closure(const shaders::MicrofacetMaterial&,
                                              const ClosureSpec&);
+/// Of a closure without microfacets.
+std::unique_ptr<AnyClosure> make_plain_closure(const ClosureSpec&);
 
 }  // namespace regain::tools

@@ -102,6 +102,23 @@ Promises promises_of(const ClosureSpec& spec, const Imath::V3d& wo)
                              (gain && *gain != Method::none);
     const bool beta = glass && spec.interface.shadowing == TransmissionShadowing::beta;
 
+    if (spec.combination)
+    {
+        // As exact as what the albedo of the coat is looked up in; Sum weighs one lobe's samples
+        // against the density of both.
+        p.furnace = p.albedo = 5e-3;
+        p.surplus = 3e-3;
+        p.weight = std::nullopt;
+        return p;
+    }
+    if (spec.plain)
+    {
+        if (spec.lobe == Lobe::burley_diffuse) p.surplus = std::nullopt;
+        if (spec.lobe == Lobe::sheen) p.surplus = 2e-3;  // what is divided by is fitted
+        // By the cosine, where the model rises at grazing directions.
+        p.weight = spec.lobe == Lobe::burley_diffuse ? 6.3 : spec.lobe == Lobe::sheen ? 3 : 4;
+        return p;
+    }
     if (spec.lobe == Lobe::sheen)
     {
         p.weight = std::nullopt;

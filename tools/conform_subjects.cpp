@@ -102,6 +102,17 @@ conformance::TableError table_error(const std::string& table, int places)
 std::string name_of(const ClosureSpec& spec)
 {
     std::string name(tools::name(spec.lobe));
+    if (spec.plain)
+    {
+        const auto* diffuse = std::get_if<shaders::OrenNayarSurface>(&spec.plain->surface);
+        if (diffuse && diffuse->energy_compensation) name += ".compensated";
+        if (const auto* cloth = std::get_if<shaders::ClothSurface>(&spec.plain->surface))
+            name += cloth->mode == shaders::ClothMode::zeltner ? ".zeltner" : ".conty_kulla";
+        return name;
+    }
+    if (spec.combination)
+        return name + "." + name_of(*spec.combination->first) + ".on." +
+               name_of(*spec.combination->second);
     if (spec.interface.thin_walled) name = "thin_dielectric";
     if (spec.lobe != Lobe::sheen) name += "." + std::string(shaders::name(spec.distribution));
     name += "." + std::string(shaders::name(spec.method));
@@ -111,6 +122,14 @@ std::string name_of(const ClosureSpec& spec)
     if (spec.interface.mode == ScatterMode::T) name += ".T";
     return name;
 }
+
+template <class Surface, class = void>
+struct HasRoughness : std::false_type
+{};
+template <class Surface>
+struct HasRoughness<Surface, std::void_t<decltype(std::declval<Surface&>().roughness)>>
+    : std::true_type
+{};
 
 // Of dielectrics with a tail none are shipped.
 bool has_albedo_tables(const ClosureSpec& spec)
@@ -132,6 +151,13 @@ public:
         Reads r;
         r.single = r.twice = true;
         if (_spec.lobe == Lobe::sheen) return r;
+        if (_spec.plain)
+        {
+            // Where it is rough, by the same number.
+            r.alpha = has_roughness(*_spec.plain);
+            r.one_medium = _spec.has_two_sides();
+            return r;
+        }
         r.alpha = r.two_alphas = true;
         r.gamma = shaders::has_gamma(_spec.distribution);
         if (r.gamma)
@@ -142,7 +168,7 @@ public:
             r.lowest_gamma = gtr ? gtr_min_gamma : 1.7;
             r.highest_gamma = gtr ? gtr_max_gamma : std_max_gamma;
         }
-        r.eta = _spec.lobe == Lobe::dielectric;
+        r.eta = _spec.lobe == Lobe::dielectric || _spec.combination;
         r.one_medium = _spec.interface.thin_walled;
         r.schlick = _spec.lobe == Lobe::generalized_schlick;
         r.conductor = _spec.lobe == Lobe::conductor;
@@ -211,10 +237,30 @@ private:
         return names;
     }
 
-    ClosureSpec specified(const Parameters& p) const
+    static bool has_roughness(const shaders::PlainMaterial& material)
+    {
+        return std::visit(
+            [](const auto& s) { return HasRoughness<std::decay_t<decltype(s)>>::value; },
+            material.surface);
+    }
+
+    ClosureSpec specified(const Parameters& p) const { return specified(_spec, p); }
+
+    // White, where it has a colour.
+    static ClosureSpec specified(ClosureSpec spec, const Parameters& p)
     {
         using conformance::Reflectance;
-        ClosureSpec spec = _spec;
+        if (spec.combination)
+            for (auto* part : {&spec.combination->first, &spec.combination->second})
+                *part = std::make_shared<const ClosureSpec>(specified(**part, p));
+        if (spec.plain)
+            std::visit(
+                [&](auto& s) {
+                    s.color = ColorD(1.0);
+                    if constexpr (HasRoughness<std::decay_t<decltype(s)>>::value)
+                        s.roughness = p.alpha_x;
+                },
+                spec.plain->surface);
         spec.precision = p.in_double ? Precision::twice : Precision::single;
         spec.alpha_x = p.alpha_x;
         spec.alpha_y = p.alpha_y;
@@ -255,6 +301,8 @@ public:
         ClosureSpec sheen;
         sheen.lobe = Lobe::sheen;
         add(sheen, nullptr, nullptr);
+        add_plain();
+        add_combinations();
     }
 
     const std::vector<const conformance::Subject*>& all() const { return _all; }
@@ -291,6 +339,52 @@ private:
                 continue;
             if (exists(spec)) add(spec, bare, walk);
         }
+    }
+
+    static ClosureSpec plain(Lobe lobe, const shaders::PlainMaterial::Surface& surface)
+    {
+        ClosureSpec spec;
+        spec.lobe = lobe;
+        spec.plain = shaders::PlainMaterial{surface};
+        return spec;
+    }
+    static ClosureSpec eon()
+    {
+        shaders::OrenNayarSurface surface;
+        surface.energy_compensation = true;
+        return plain(Lobe::oren_nayar_diffuse, surface);
+    }
+
+    void add_plain()
+    {
+        using shaders::ClothMode;
+        shaders::ClothSurface cloth;
+        add(eon(), nullptr, nullptr);
+        add(plain(Lobe::oren_nayar_diffuse, shaders::OrenNayarSurface{}), nullptr, nullptr);
+        add(plain(Lobe::burley_diffuse, shaders::BurleyDiffuseSurface{}), nullptr, nullptr);
+        add(plain(Lobe::translucent, shaders::TranslucentSurface{}), nullptr, nullptr);
+        add(plain(Lobe::transparent, shaders::TransparentSurface{}), nullptr, nullptr);
+        for (const ClothMode mode : {ClothMode::conty_kulla, ClothMode::zeltner})
+        {
+            cloth.mode = mode;
+            add(plain(Lobe::sheen, cloth), nullptr, nullptr);
+        }
+    }
+
+    // Plastic: the coat with the gain of its mode on a white base that loses nothing.
+    void add_combinations()
+    {
+        ClosureSpec coat;
+        coat.lobe = Lobe::dielectric;
+        coat.fresnel = DielectricParameters{};
+        coat.interface.mode = ScatterMode::R;
+        coat.method = Method::turquin;
+        ClosureSpec plastic;
+        plastic.lobe = Lobe::layer;
+        plastic.combination =
+            Combination{CombinationKind::layer, std::make_shared<const ClosureSpec>(coat),
+                        std::make_shared<const ClosureSpec>(eon()), ColorD(1.0)};
+        add(plastic, nullptr, nullptr);
     }
 
     void add_interfaces(DistributionKind distribution)

@@ -126,6 +126,15 @@ std::optional<ColorD> Fields::color(std::string_view name, Range range)
                   number_in(name, (*value)[2], range, what));
 }
 
+std::optional<ColorD> Fields::grey_or_color(std::string_view name, Range range)
+{
+    const auto at = _object.find(name);
+    if (at != _object.end() && at->is_array()) return color(name, range);
+    const auto grey = number(name, range);
+    if (!grey) return std::nullopt;
+    return ColorD(*grey);
+}
+
 std::optional<Imath::V2d> Fields::one_or_two(std::string_view name, Range range)
 {
     const auto at = _object.find(name);
@@ -225,20 +234,14 @@ void Fields::finish() const
 }
 
 std::size_t choose(std::string_view kind, std::string_view given, const std::string_view* accepted,
-                   std::size_t accepted_count, const std::string_view* planned,
-                   std::size_t planned_count)
+                   std::size_t accepted_count)
 {
     const std::string_view* end = accepted + accepted_count;
     const std::string_view* at = std::find(accepted, end, given);
     if (at != end) return static_cast<std::size_t>(at - accepted);
 
-    const bool is_planned =
-        std::find(planned, planned + planned_count, given) != planned + planned_count;
-    const std::string names = joined(accepted, accepted_count);
-    if (is_planned)
-        throw BadInput(
-            fmt::format("{} {} is not supported yet; accepted: {}", kind, excerpt(given), names));
-    throw BadInput(fmt::format("there is no {} {}; accepted: {}", kind, excerpt(given), names));
+    throw BadInput(fmt::format("there is no {} {}; accepted: {}", kind, excerpt(given),
+                               joined(accepted, accepted_count)));
 }
 
 }  // namespace regain::tools

@@ -51,6 +51,8 @@ public:
     std::optional<double> number(std::string_view name, Range range);
     std::optional<std::uint64_t> count(std::string_view name, std::uint64_t lo, std::uint64_t hi);
     std::optional<ColorD> color(std::string_view name, Range range);
+    /// A number for all channels, or a list of three.
+    std::optional<ColorD> grey_or_color(std::string_view name, Range range);
     /// A number for both, or a list of two.
     std::optional<Imath::V2d> one_or_two(std::string_view name, Range range);
     /// A list of exactly two numbers.
@@ -81,18 +83,16 @@ private:
     std::size_t _asked_count = 0, _found = 0;
 };
 
-/// One of `accepted`, as an index. `planned` are names of this kind that the library will know one
-/// day. Throws BadInput: "distribution 'beckmann' is not supported yet; accepted: ggx".
+/// One of `accepted`, as an index. Throws BadInput: "there is no distribution 'beckman'; accepted:
+/// ggx, beckmann".
 std::size_t choose(std::string_view kind, std::string_view given, const std::string_view* accepted,
-                   std::size_t accepted_count, const std::string_view* planned,
-                   std::size_t planned_count);
+                   std::size_t accepted_count);
 
-template <std::size_t N, std::size_t M>
+template <std::size_t N>
 std::size_t choose(std::string_view kind, std::string_view given,
-                   const std::array<std::string_view, N>& accepted,
-                   const std::array<std::string_view, M>& planned)
+                   const std::array<std::string_view, N>& accepted)
 {
-    return choose(kind, given, accepted.data(), N, planned.data(), M);
+    return choose(kind, given, accepted.data(), N);
 }
 
 /// A value as it may stand in a message: short, whatever was given.

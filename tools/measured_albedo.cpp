@@ -7,6 +7,8 @@
 #include "hemisphere.h"
 #include "interface_integral.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 namespace regain::tools {
@@ -59,19 +61,19 @@ MeasuredAlbedo by_quadrature(AnyClosure& closure, const ClosureSpec& spec, const
     MeasuredAlbedo albedo;
     if (traits.delta) albedo = delta_part(closure);
     // A lobe without microfacets is as wide as they come.
-    const double widest = spec.lobe == Lobe::sheen ? 1 : 0, least = 1e-9;
+    const double widest = spec.has_microfacets() ? 0 : 1, least = 1e-9;
     const double ax = std::max({spec.alpha_x, widest, least}),
                  ay = std::max({spec.alpha_y, widest, least});
     const auto eval = [&](const Imath::V3d& wi) { return closure.eval(wi); };
 
-    if (spec.lobe != Lobe::dielectric)
+    if (!spec.has_two_sides())
     {
         albedo.reflect += integrate_reflection(wo, ax, ay, nodes, eval);
         return albedo;
     }
-    if (spec.interface.thin_walled)
+    if (spec.plain || spec.interface.thin_walled)
     {
-        // Both lobes are a mirror's, one of them turned to the other side.
+        // A lobe on one side is as one on the other, turned.
         const auto turned = [](const Imath::V3d& w) { return Imath::V3d(w.x, w.y, -w.z); };
         const bool below = wo.z < 0;
         const Imath::V3d up = below ? turned(wo) : wo;
@@ -181,8 +183,9 @@ bool adds_to_dielectric(const ClosureSpec& spec)
 
 AlbedoMethod default_albedo_method(const ClosureSpec& spec)
 {
-    return spec.is_stochastic() || adds_to_dielectric(spec) ? AlbedoMethod::monte_carlo
-                                                            : AlbedoMethod::quadrature;
+    return spec.is_stochastic() || adds_to_dielectric(spec) || spec.combination
+               ? AlbedoMethod::monte_carlo
+               : AlbedoMethod::quadrature;
 }
 
 void require_possible(const ClosureSpec& spec, const AlbedoSettings& settings)
@@ -191,6 +194,12 @@ void require_possible(const ClosureSpec& spec, const AlbedoSettings& settings)
         throw BadInput(
             "how 'quadrature' does not reach all directions of the lobe that kulla-conty "
             "adds to a dielectric; accepted: monte-carlo, table");
+    if (settings.how == AlbedoMethod::quadrature && spec.combination)
+        throw BadInput(
+            fmt::format("how 'quadrature' is made for one lobe, and {} combines several; accepted: "
+                        "monte-carlo, "
+                        "table",
+                        name(spec.lobe)));
     if (!spec.is_stochastic()) return;
     if (settings.how == AlbedoMethod::quadrature)
         throw BadInput(

@@ -29,7 +29,11 @@ conversation through two pipes.
 
 fields of a line
   op          eval, pdf, sample, albedo, gain, fresnel, ndf
-  closure     conductor, generalized_schlick, dielectric, sheen
+  closure     conductor, generalized_schlick, dielectric, sheen,
+              oren_nayar_diffuse, burley_diffuse, subsurface (a diffuse stand-in),
+              translucent, transparent; or of closures, each an object:
+              layer (top, base), mix (fg, bg, mix), add (in1, in2),
+              multiply (in1, in2: a number or a colour)
   distribution  ggx (default), beckmann, gtr, std
   gamma       of gtr, from 0.001 to 10, and std, from 1.51 to 100; default 2
   alpha       a number in [0, 1], or [alpha_x, alpha_y]; default 0.05
@@ -40,7 +44,10 @@ fields of a line
   scatter_mode  of dielectric: R, T, RT (default)
   transmission_shadowing  of dielectric: correlated (default), beta
   thin_walled   of dielectric: true for a sheet; tint: [r,g,b] of all that it scatters
-  color, weight of sheen; default 1
+  color       of what has no microfacets; default MaterialX's
+  roughness, energy_compensation
+              of oren_nayar_diffuse; roughness of burley_diffuse and sheen, too
+  mode        of sheen: burley (default; takes weight), conty_kulla, zeltner
   method      none (default), normalise, turquin, turquin-eq12, turquin-eq13, turquin-eq14, series,
               directional, balanced, kulla-conty, kulla-conty-series, tail, walk, walk-bounded,
               burley-sheen; docs/support.md says what goes with what

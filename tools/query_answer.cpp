@@ -180,8 +180,9 @@ void write_answer(const Query& query, fmt::memory_buffer& out)
     Writer writer(out, query.closure.precision);
     if (query.op == Op::fresnel || query.op == Op::ndf)
     {
-        if (query.op == Op::fresnel && query.closure.lobe == Lobe::sheen)
-            throw BadInput("the closure sheen has no Fresnel term");
+        if (query.op == Op::fresnel && !query.closure.has_microfacets())
+            throw BadInput(
+                fmt::format("the closure {} has no Fresnel term", name(query.closure.lobe)));
         if (query.closure.precision == Precision::twice)
             write_part<double>(writer, query);
         else
@@ -203,6 +204,11 @@ void write_answer(const Query& query, fmt::memory_buffer& out)
         case Op::gain: write_gain(writer, *closure, query); break;
         case Op::fresnel:
         case Op::ndf: break;
+    }
+    if (spec.plain && spec.plain->stand_in())
+    {
+        out.resize(out.size() - 1);
+        in_full(out) << R"(,"note":")" << spec.plain->stand_in() << R"("})";
     }
 }
 

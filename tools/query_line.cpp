@@ -12,10 +12,10 @@ namespace {
 
 constexpr std::array<std::string_view, 7> ops{"eval", "pdf",     "sample", "albedo",
                                               "gain", "fresnel", "ndf"};
-constexpr std::array<std::string_view, 0> nothing_planned{};
 
-// A line needs two levels: the object, a list or the Fresnel term in it, a list in that.
-constexpr int deepest = 3;
+// One closure needs two levels: the object, a list or the Fresnel term in it, a list in that. Each
+// combination that it is in needs one more.
+constexpr int deepest = 16;
 
 // The names given at each level, to find those given twice, of which JSON readers keep one or the
 // other.
@@ -117,8 +117,7 @@ AlbedoSettings read_albedo_settings(Fields& fields, const ClosureSpec& closure)
     else
         fields.reject("order", "it belongs to the method walk");
     if (const auto how = fields.text("how"))
-        settings.how =
-            static_cast<AlbedoMethod>(choose("how", *how, albedo_methods, nothing_planned));
+        settings.how = static_cast<AlbedoMethod>(choose("how", *how, albedo_methods));
     require_possible(closure, settings);
     if (settings.how == AlbedoMethod::monte_carlo)
     {
@@ -178,7 +177,7 @@ Query read_query(std::string_view line)
     Query query;
     const auto op = fields.text("op");
     if (!op) fields.missing("'op'");
-    query.op = static_cast<Op>(choose("op", *op, ops, nothing_planned));
+    query.op = static_cast<Op>(choose("op", *op, ops));
 
     if (query.op != Op::albedo) fields.reject("order", "it belongs to the op albedo");
     const bool closure_needed =

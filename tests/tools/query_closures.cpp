@@ -81,6 +81,51 @@ TEST(query_closures, every_combination_is_answered_or_refused_by_name)
     EXPECT_GE(answered, 2 * (4 * 3 * 2 + 4));
 }
 
+// The parts, put together by hand.
+TEST(query_closures, combinations_are_what_their_parts_make)
+{
+    const json metal{{"closure", "generalized_schlick"},
+                     {"alpha", 0.4},
+                     {"method", "turquin"},
+                     {"color0", {0.9, 0.5, 0.1}}};
+    const json chalk{{"closure", "oren_nayar_diffuse"}, {"color", {1, 1, 1}}, {"roughness", 0.5}};
+    const json at{{"op", "eval"}, {"mu", 0.6}, {"wi", {0.28, 0, 0.96}}, {"precision", "double"}};
+    const double f = red(answer(with(metal, at))["value"]),
+                 g = red(answer(with(chalk, at))["value"]);
+    json how = at;
+    how.erase("wi");
+    how.update({{"op", "albedo"}, {"how", "table"}});
+    const double E = red(answer(with(metal, how))["reflect"]);
+
+    const auto value = [&](const json& combination) {
+        return red(answer(with(combination, at))["value"]);
+    };
+    EXPECT_NEAR(value({{"closure", "layer"}, {"top", metal}, {"base", chalk}}), f + (1 - E) * g,
+                1e-9);
+    EXPECT_NEAR(value({{"closure", "mix"}, {"fg", metal}, {"bg", chalk}, {"mix", 0.3}}),
+                0.3 * f + 0.7 * g, 1e-9);
+    EXPECT_NEAR(value({{"closure", "add"}, {"in1", metal}, {"in2", chalk}}), f + g, 1e-9);
+    EXPECT_NEAR(value({{"closure", "multiply"}, {"in1", chalk}, {"in2", {0.5, 1, 1}}}), 0.5 * g,
+                1e-9);
+
+    const json layered{{"closure", "layer"},
+                       {"top", metal},
+                       {"base", {{"closure", "mix"}, {"fg", chalk}, {"bg", metal}, {"mix", 0.9}}}};
+    const json mean = answer(with(with(layered, how), {{"how", "monte-carlo"}, {"n", 100000}})),
+               told = answer(with(layered, how));
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(mean["reflect"][c], told["reflect"][c], 4 * double(mean["stderr"]) + 3e-3);
+}
+
+// What stands in for another says so.
+TEST(query_closures, subsurface_says_that_it_is_diffuse)
+{
+    const json q{{"op", "eval"}, {"closure", "subsurface"}, {"mu", 0.5}, {"wi", {0, 0, 1}}};
+    const std::string note = answer(q)["note"];
+    EXPECT_NE(note.find("diffuse"), std::string::npos);
+    EXPECT_NEAR(red(answer(q)["value"]), 0.18 / std::acos(-1.0), 1e-6);
+}
+
 TEST(query_closures, transmitted_radiance_holds_the_ratio_of_indices)
 {
     for (const double mu : {0.8, -0.8})
@@ -153,6 +198,12 @@ TEST(query_closures, albedo_by_quadrature_is_the_mean_of_samples)
         with(white, {{"mu", 0.2}, {"method", "kulla-conty"}}),
         with(white, {{"mu", 0.2}, {"method", "burley-sheen"}}),
         json{{"closure", "sheen"}, {"mu", 0.2}, {"precision", "double"}},
+        json{{"closure", "sheen"}, {"mode", "zeltner"}, {"mu", 0.2}, {"precision", "double"}},
+        json{{"closure", "sheen"}, {"mode", "conty_kulla"}, {"mu", 0.7}, {"precision", "double"}},
+        json{{"closure", "oren_nayar_diffuse"}, {"roughness", 0.7}, {"mu", 0.2}},
+        json{{"closure", "burley_diffuse"}, {"roughness", 0.7}, {"mu", 0.2}},
+        json{{"closure", "translucent"}, {"mu", -0.2}},
+        json{{"closure", "transparent"}, {"mu", -0.2}},
     };
     for (const json& q : cases)
     {

@@ -43,6 +43,10 @@ json glass()
 {
     return {{"op", "eval"}, {"closure", "dielectric"}, {"mu", 0.5}, {"wi", {0, 0, -1}}};
 }
+json diffuse()
+{
+    return {{"op", "eval"}, {"closure", "oren_nayar_diffuse"}, {"mu", 0.5}, {"wi", {0, 0, 1}}};
+}
 json sheen() { return {{"op", "eval"}, {"closure", "sheen"}, {"mu", 0.5}, {"wi", {0, 0, 1}}}; }
 json albedo() { return {{"op", "albedo"}, {"closure", "conductor"}, {"mu", 0.5}}; }
 
@@ -69,32 +73,62 @@ const json zero_to_one = {0.5, 0.5, 0.5};
 
 }  // namespace
 
-TEST(query_refusals, what_is_planned_is_named_as_not_supported_yet)
-{
-    for (const char* name :
-         {"oren_nayar_diffuse", "burley_diffuse", "translucent", "layer", "mix", "add", "multiply"})
-        EXPECT_EQ(refusal(changed(eval(), "closure", name)),
-                  std::string("closure '") + name +
-                      "' is not supported yet; accepted: conductor, generalized_schlick, "
-                      "dielectric, sheen");
-}
-
 TEST(query_refusals, what_belongs_to_another_closure)
 {
     const std::string dielectric = "belongs to the closure dielectric";
-    check({{eval(), "scatter_mode", "RT", {"there is no scatter_mode", "accepted: R"}},
-           {eval(), "fresnel", {{"eta", 1.5}}, {"eta", dielectric}},
-           {eval(), "transmission_shadowing", "beta", {dielectric}},
-           {eval(), "thin_walled", true, {dielectric}},
-           {eval(), "gamma", 2, {"'gamma'", "gtr and std"}},
-           {eval(), "order", 2, {"'order'", "the op albedo"}},
-           {albedo(), "order", 2, {"'order'", "the method walk"}},
-           {glass(), "fresnel", {{"F0", zero_to_one}}, {"'fresnel' with eta"}},
-           {glass(), "scatter_mode", "TR", {"there is no scatter_mode 'TR'", "R, T, RT"}},
-           {glass(), "transmission_shadowing", "smith", {"correlated, beta"}},
-           {glass(), "ior", 0, {"'ior' is 0", "from 0.01 to 100"}},
-           {sheen(), "alpha", 0.5, {"'alpha'", "no microfacets"}},
-           {sheen(), "fresnel", {{"constant", zero_to_one}}, {"no microfacets"}}});
+    check(
+        {{eval(), "scatter_mode", "RT", {"there is no scatter_mode", "accepted: R"}},
+         {eval(), "fresnel", {{"eta", 1.5}}, {"eta", dielectric}},
+         {eval(), "transmission_shadowing", "beta", {dielectric}},
+         {eval(), "thin_walled", true, {dielectric}},
+         {eval(), "gamma", 2, {"'gamma'", "gtr and std"}},
+         {eval(), "order", 2, {"'order'", "the op albedo"}},
+         {albedo(), "order", 2, {"'order'", "the method walk"}},
+         {glass(), "fresnel", {{"F0", zero_to_one}}, {"'fresnel' with eta"}},
+         {glass(), "scatter_mode", "TR", {"there is no scatter_mode 'TR'", "R, T, RT"}},
+         {glass(), "transmission_shadowing", "smith", {"correlated, beta"}},
+         {glass(), "ior", 0, {"'ior' is 0", "from 0.01 to 100"}},
+         {sheen(), "alpha", 0.5, {"'alpha'", "no microfacets"}},
+         {sheen(), "roughness", 0.5, {"'roughness'", "conty_kulla and zeltner"}},
+         {sheen(), "mode", "velvet", {"there is no mode 'velvet'", "burley, conty_kulla, zeltner"}},
+         {diffuse(), "alpha", 0.5, {"'alpha'", "oren_nayar_diffuse has no microfacets"}},
+         {diffuse(), "roughness", 1.5, {"'roughness' is 1.5", "from 0 to 1"}},
+         {diffuse(), "mode", "zeltner", {"'mode'"}},
+         {diffuse(), "method", "turquin", {"turquin", "oren_nayar_diffuse", "none"}},
+         {sheen(), "fresnel", {{"constant", zero_to_one}}, {"no microfacets"}}});
+}
+
+TEST(query_refusals, what_combinations_of_closures_lack)
+{
+    const json part{{"closure", "translucent"}};
+    const json layered{{"op", "eval"},    {"closure", "layer"}, {"mu", 0.5},
+                       {"wi", {0, 0, 1}}, {"top", part},        {"base", part}};
+    EXPECT_EQ(refusal(layered), "");
+    check({{layered, "base", nullptr, {"'base'"}},
+           {layered, "base", 1, {"'base'"}},
+           {layered, "base", {{"closure", "velvet"}}, {"there is no closure 'velvet'"}},
+           {layered, "base", {{"color", zero_to_one}}, {"'closure'"}},
+           {layered,
+            "base",
+            {{"closure", "sheen"}, {"precision", "double"}},
+            {"'precision'", "whole"}},
+           {layered, "base", {{"closure", "sheen"}, {"colour", zero_to_one}}, {"colour"}},
+           {layered, "alpha", 0.5, {"'alpha'", "parts"}},
+           {layered, "mix", 0.5, {"'mix'"}},
+           {layered, "op", "gain", {"ask for those of its parts"}},
+           {layered, "op", "fresnel", {"layer"}}});
+    json mixed = changed(layered, "closure", "mix");
+    mixed.erase("top");
+    mixed.erase("base");
+    mixed.update({{"fg", part}, {"bg", part}, {"mix", 0.5}});
+    EXPECT_EQ(refusal(mixed), "");
+    check({{mixed, "mix", 2, {"'mix' is 2", "from 0 to 1"}}, {mixed, "fg", 3, {"'fg'"}}});
+    json scaled{
+        {"op", "albedo"}, {"closure", "multiply"}, {"mu", 0.5}, {"in1", part}, {"in2", 0.5}};
+    EXPECT_EQ(refusal(scaled), "");
+    check({{scaled, "in2", {1, 2}, {"'in2'"}},
+           {scaled, "in2", -1, {"'in2' is -1"}},
+           {scaled, "how", "quadrature", {"quadrature", "monte-carlo"}}});
 }
 
 TEST(query_refusals, combinations_that_the_library_has_not)

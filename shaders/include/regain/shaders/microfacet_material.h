@@ -43,6 +43,7 @@
 #include <regain/closures/walk.h>
 #include <regain/shaders/export.h>
 #include <regain/shaders/material.h>
+#include <regain/shaders/plain_material.h>
 
 #include <optional>
 #include <stdexcept>
@@ -53,8 +54,6 @@
 
 REGAIN_NAMESPACE_BEGIN
 namespace shaders {
-
-using ColorD = Imath::Color3<double>;
 
 /// MaterialX's generalized_schlick_bsdf, scatter mode R. Colours linear, in [0, 1].
 struct SchlickSurface

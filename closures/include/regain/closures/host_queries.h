@@ -11,7 +11,18 @@
 ///     decltype(auto) with_closure(Real strength, const Visit& visit) const    visit(closure)
 ///
 /// the second where the type of the closure is known only at run time. with_closure() below calls
-/// either.
+/// either. A material of several closures answers
+///
+///     int lobes() const
+///     template <class Real, class Visit>
+///     decltype(auto) with_lobe(int k, Real strength, const Visit& visit) const
+///     template <class Real>
+///     Color3<Real> lobe_weights(const Color3<Real>* albedo, Color3<Real>* weight) const
+///     const char* lobe_name(int k) const
+///
+/// weight[k] being what closure k is multiplied by at a direction where `albedo` holds the
+/// directional albedos of all; it returns the albedo of the whole. lobe_count() and so on below
+/// ask a material of one closure the same.
 ///
 /// A closure is asked for
 ///
@@ -57,6 +68,14 @@ struct IsThinWalled<Closure, std::void_t<decltype(Closure::thin_walled)>> : std:
 {};
 
 template <class Closure, class = void>
+struct PassesStraight : std::false_type
+{};
+template <class Closure>
+struct PassesStraight<Closure, std::void_t<decltype(Closure::passes_straight)>>
+    : std::bool_constant<Closure::passes_straight>
+{};
+
+template <class Closure, class = void>
 struct HasLobe : std::false_type
 {};
 template <class Closure>
@@ -93,6 +112,59 @@ decltype(auto) with_closure(const Material& material, Real strength, const Visit
         return material.with_closure(strength, visit);
     else
         return visit(material.closure(strength));
+}
+
+namespace detail {
+
+template <class Material, class = void>
+struct HasLobes : std::false_type
+{};
+template <class Material>
+struct HasLobes<Material, std::void_t<decltype(std::declval<const Material&>().lobes())>>
+    : std::true_type
+{};
+
+}  // namespace detail
+
+template <class Material>
+int lobe_count([[maybe_unused]] const Material& material)
+{
+    if constexpr (detail::HasLobes<Material>::value)
+        return material.lobes();
+    else
+        return 1;
+}
+
+template <class Material>
+const char* lobe_name(const Material& material, [[maybe_unused]] int k)
+{
+    if constexpr (detail::HasLobes<Material>::value)
+        return material.lobe_name(k);
+    else
+        return material.lobe_name();
+}
+
+template <class Material, class Real, class Visit>
+decltype(auto) with_lobe(const Material& material, [[maybe_unused]] int k, Real strength,
+                         const Visit& visit)
+{
+    if constexpr (detail::HasLobes<Material>::value)
+        return material.with_lobe(k, strength, visit);
+    else
+        return with_closure(material, strength, visit);
+}
+
+template <class Material, class Real>
+Color3<Real> lobe_weights([[maybe_unused]] const Material& material, const Color3<Real>* albedo,
+                          Color3<Real>* weight)
+{
+    if constexpr (detail::HasLobes<Material>::value)
+        return material.lobe_weights(albedo, weight);
+    else
+    {
+        weight[0] = Color3<Real>(Real(1));
+        return albedo[0];
+    }
 }
 
 /// Index on the -z side over index on the +z side; 1 where one medium is on both.
@@ -142,12 +214,24 @@ typename Closure::Real widest_alpha(const Closure& closure)
         return typename Closure::Real(1);
 }
 
+/// Light goes straight on, as if there were no surface.
+template <class Closure>
+constexpr bool passes_straight(const Closure& closure)
+{
+    if constexpr (detail::HasLobe<Closure>::value)
+        return passes_straight(closure.lobe());
+    else
+        return detail::PassesStraight<Closure>::value;
+}
+
 /// All that it scatters has no density: a mirror, smooth glass. A closure for which only
 /// traits().delta holds may return both kinds of direction.
 template <class Closure>
 bool is_delta(const Closure& closure)
 {
-    if constexpr (detail::HasDistribution<Closure>::value)
+    if constexpr (detail::PassesStraight<Closure>::value)
+        return true;
+    else if constexpr (detail::HasDistribution<Closure>::value)
         return closure.traits().delta && closure.distribution().is_delta();
     else if constexpr (detail::HasLobe<Closure>::value)
         return is_delta(closure.lobe());

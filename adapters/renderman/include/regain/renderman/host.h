@@ -23,7 +23,8 @@
 ///  C7 `ctx->lightPath`: importance is carried, V is the light's side and L the eye's. On an eye
 ///     path radiance is, and a transmitted weight holds (n_V / n_L)^2, the indices on the sides of
 ///     V and of L; on a light path it does not.
-///  C8 The surface of an interface between two media has an outside: where the normals point. Which
+///  C8 `revPdf` may be null, and costs nothing then.
+///  C9 The surface of an interface between two media has an outside: where the normals point. Which
 ///     side V is on is told by Ngn. Other surfaces are the same from both sides.
 
 #pragma once
@@ -72,6 +73,7 @@ struct Lobe
     LobeClass cls = LobeClass::Diffuse;
     std::uint8_t id = 0;
     bool reflect = true, discrete = false, valid = false;
+    bool continuation = false;  ///< light goes on as if there were no surface
 
     /// Bit of this lobe in a LobeSet: 2 per diffuse or specular slot (reflect, transmit), 1 per
     /// user slot.
@@ -232,6 +234,20 @@ protected:
     Factory* factory;
 };
 
+/// Where a surface is, and how much light it lets by [RixOpacity]. It changes nothing of what
+/// scatters: lobe weights are those of the surface where it is.
+class Opacity
+{
+public:
+    /// In [0, 1] per point; false: 1 everywhere.
+    virtual bool presence(float*) const = 0;
+    /// Per point; false: 1 everywhere.
+    virtual bool opacity(Color3*) const = 0;
+
+protected:
+    ~Opacity() = default;
+};
+
 /// One per bound material, shared by all threads [RixBxdfFactory].
 class Factory
 {
@@ -242,6 +258,14 @@ public:
     virtual Bxdf* beginScatter(const ShadingContext* ctx, const LobeSet& lobesWanted, ShadeMode,
                                void* parentData, void* instanceData) = 0;
     virtual void endScatter(Bxdf*) {}
+
+    /// Null where the surface is everywhere, or the arena is spent.
+    virtual Opacity* beginOpacity(const ShadingContext*, ShadeMode, void* /*parentData*/,
+                                  void* /*instanceData*/)
+    {
+        return nullptr;
+    }
+    virtual void endOpacity(Opacity*) {}
 };
 
 }  // namespace renderman

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+/// @file
+/// A material of several closures, put together by MaterialX's layer, mix, add and multiply:
+///
+///     ClosureTree plastic;
+///     const auto coat = plastic.lobe(coat_material, "coat");
+///     const auto body = plastic.lobe(PlainMaterial{OrenNayarSurface{}});
+///     plastic.set_root(plastic.layer(coat, body));
+///     plastic.bind_tables();
+///
+/// Hosts see its closures one by one, and what each is multiplied by at a direction. The weight of
+/// a closure is the product of those on its way from the root; below the top of a layer it is
+/// 1 - E_top per channel, E_top being what the top reflects and lets through at that direction by
+/// its closures' albedos, compensation included. That weight is a gain: it takes no part in
+/// directions and pdfs, and as it looks at one direction alone, a layer is not reciprocal.
+///
+/// A closure whose weight is 0 whatever the direction is left out by set_root, and its tables are
+/// not bound.
+
+#pragma once
+
+#include <regain/shaders/microfacet_material.h>
+
+#include <string>
+#include <variant>
+#include <vector>
+
+REGAIN_NAMESPACE_BEGIN
+namespace shaders {
+
+class ClosureTree
+{
+public:
+    using Material = std::variant<MicrofacetMaterial, PlainMaterial>;
+    using Node = int;
+
+    /// Closures that a tree may have, and combinations on the way to one.
+    static constexpr int most_lobes = 16, deepest = 64;
+
+    ClosureTree() = default;
+    /// A tree of one closure.
+    REGAIN_SHADERS_API explicit ClosureTree(const Material&, const char* name = nullptr);
+
+    /// `name`, for light path expressions, is kept as it is; without one, the material's own.
+    REGAIN_SHADERS_API Node lobe(const Material&, const char* name = nullptr);
+    REGAIN_SHADERS_API Node layer(Node top, Node base);
+    /// `amount` of the foreground in [0, 1], clamped; NaN becomes 0.
+    REGAIN_SHADERS_API Node mix(Node foreground, Node background, double amount);
+    REGAIN_SHADERS_API Node add(Node, Node);
+    /// In [0, 1e6] per channel, clamped; NaN becomes 0.
+    REGAIN_SHADERS_API Node multiply(Node, const ColorD& weight);
+
+    /// What the material is. A node may be in several places. Throws std::invalid_argument for a
+    /// node that there is none of, and where there are more closures than most_lobes or more
+    /// combinations in one another than `deepest`, naming both numbers.
+    REGAIN_SHADERS_API void set_root(Node);
+
+    /// Of all closures: see MicrofacetMaterial.
+    REGAIN_SHADERS_API void bind_tables(bool for_albedo = false);
+
+    /// Of those that are left in.
+    int lobes() const { return static_cast<int>(_lobes.size()); }
+    const Material& material(int k) const { return _lobes[static_cast<std::size_t>(k)].material; }
+    const char* lobe_name(int k) const { return _lobes[static_cast<std::size_t>(k)].name; }
+
+    template <class Real, class Visit>
+    decltype(auto) with_lobe(int k, Real strength, const Visit& visit) const
+    {
+        const Material& m = material(k);
+        if (const auto* plain = std::get_if<PlainMaterial>(&m))
+            return plain->with_closure(strength, visit);
+        return std::get<MicrofacetMaterial>(m).with_closure(strength, visit);
+    }
+
+    /// What each closure is multiplied by at a direction where `albedo` holds what each reflects
+    /// and lets through. Both have lobes() entries. Answers what they do together.
+    template <class Real>
+    Color3<Real> lobe_weights(const Color3<Real>* albedo, Color3<Real>* weight) const
+    {
+        // The steps are in the order of a walk from the root, tops first; each energy is on a
+        // stack until the combination that it is part of is complete.
+        using Color = Color3<Real>;
+        Color passing[deepest + 1], energy[most_lobes];
+        int depth = 0, top = 0;
+        passing[0] = Color(Real(1));
+        for (const Step& s : _steps) switch (s.kind)
+            {
+                case StepKind::lobe:
+                    weight[s.lobe] = passing[depth];
+                    energy[top++] = albedo[s.lobe];
+                    break;
+                case StepKind::weigh:
+                    passing[depth + 1] = passing[depth] * Color(s.weight);
+                    ++depth;
+                    break;
+                case StepKind::weighed:
+                    --depth;
+                    energy[top - 1] *= Color(s.weight);
+                    break;
+                case StepKind::pass:
+                    passing[depth + 1] = passing[depth] * rest(energy[top - 1]);
+                    ++depth;
+                    break;
+                case StepKind::passed:
+                    --depth;
+                    --top;
+                    energy[top - 1] += rest(energy[top - 1]) * energy[top];
+                    break;
+                case StepKind::add:
+                    --top;
+                    energy[top - 1] += energy[top];
+                    break;
+            }
+        return top > 0 ? energy[0] : Color(Real(0));
+    }
+
+private:
+    enum class Kind { lobe, layer, mix, add, multiply };
+    struct NodeData
+    {
+        Kind kind;
+        Node first, second;
+        ColorD weight;  // of mix: the amount of the first
+    };
+    struct Lobe
+    {
+        Material material;
+        const char* name;
+    };
+    enum class StepKind { lobe, weigh, weighed, pass, passed, add };
+    struct Step
+    {
+        StepKind kind;
+        int lobe = 0;
+        Imath::C3f weight{1.0f};
+    };
+
+    // The part of the light that gets by.
+    template <class Real>
+    static Color3<Real> rest(const Color3<Real>& energy)
+    {
+        return detail::per_channel(energy, [](Real e) { return Real(1) - detail::saturate(e); });
+    }
+
+    Node add_node(const NodeData&);
+    void flatten(Node, int depth, const ColorD& passing, bool& any);
+
+    std::vector<Lobe> _all;  // by the `first` of their nodes
+    std::vector<NodeData> _nodes;
+    std::vector<Lobe> _lobes;
+    std::vector<Step> _steps;
+};
+
+}  // namespace shaders
+REGAIN_NAMESPACE_END

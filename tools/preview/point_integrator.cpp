@@ -211,7 +211,7 @@ bool PointIntegrator::bounce(PathState& path, const Hit& hit, const Sampler& sam
     const V3f direction = to_world(entry, local);
     if (!possible(direction, entry.lobe->label().ev)) return false;
 
-    if (entry.lobe->label().sc == clarisse::scatter::singular)
+    if (entry.lobe->label().is_singular())
     {
         path.throughput *= entry.weight * weight / q;
         path.alone = true;

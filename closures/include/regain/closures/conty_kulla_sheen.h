@@ -33,6 +33,7 @@ public:
     using Real = RealType;
     using Color = Color3<Real>;
     static constexpr int random_numbers = 2;
+    static constexpr bool is_diffuse = false;
 
     ContyKullaModel(const Color& color, Real roughness)
         : _color(per_channel(color, [](Real v) { return saturate(v); })),

@@ -19,6 +19,7 @@ public:
     using Mask = MaskOf<Real>;
     using Color = Color3<Real>;
     static constexpr int random_numbers = 2;
+    static constexpr bool is_diffuse = true;
 
     /// Albedo in [0, 1] per channel; outside it is clamped, NaN becomes 0.
     explicit Diffuse(const Color& albedo)

@@ -68,6 +68,14 @@ struct IsThinWalled<Closure, std::void_t<decltype(Closure::thin_walled)>> : std:
 {};
 
 template <class Closure, class = void>
+struct IsDiffuse : std::false_type
+{};
+template <class Closure>
+struct IsDiffuse<Closure, std::void_t<decltype(Closure::is_diffuse)>>
+    : std::bool_constant<Closure::is_diffuse>
+{};
+
+template <class Closure, class = void>
 struct PassesStraight : std::false_type
 {};
 template <class Closure>
@@ -212,6 +220,16 @@ typename Closure::Real widest_alpha(const Closure& closure)
         return detail::max(widest_alpha(closure.first()), widest_alpha(closure.second()));
     else
         return typename Closure::Real(1);
+}
+
+/// What light path expressions call diffuse.
+template <class Closure>
+constexpr bool is_diffuse(const Closure& closure)
+{
+    if constexpr (detail::HasLobe<Closure>::value)
+        return is_diffuse(closure.lobe());
+    else
+        return detail::IsDiffuse<Closure>::value;
 }
 
 /// Light goes straight on, as if there were no surface.

@@ -45,6 +45,7 @@ public:
     using Real = RealType;
     using Color = Color3<Real>;
     static constexpr int random_numbers = 3;
+    static constexpr bool is_diffuse = true;
 
     OrenNayarModel(const Color& color, Real roughness, bool compensated)
         : _color(per_channel(color, [](Real v) { return saturate(v); })),

@@ -6,6 +6,7 @@
 ///
 ///     using Real
 ///     static constexpr int random_numbers      2 or 3
+///     static constexpr bool is_diffuse         what light path expressions call it
 ///     void describe(Traits&) const             what it promises besides an exact pdf
 ///     View(const Model&, const Vec3<Real>& wo) nested; wo is unit and above the horizon
 ///       .terms(wi)     a ReflectionTerms; wi is above the horizon, too
@@ -37,6 +38,7 @@ public:
     using Mask = MaskOf<Real>;
     using Color = Color3<Real>;
     static constexpr int random_numbers = Model::random_numbers;
+    static constexpr bool is_diffuse = Model::is_diffuse;
 
     explicit SmoothReflection(const Model& model) : _model(model) {}
 

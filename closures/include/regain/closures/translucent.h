@@ -20,6 +20,7 @@ public:
     using Mask = MaskOf<Real>;
     using Color = Color3<Real>;
     static constexpr int random_numbers = Diffuse<Real>::random_numbers;
+    static constexpr bool is_diffuse = true;
 
     /// Colour in [0, 1] per channel; outside it is clamped, NaN becomes 0.
     explicit Translucent(const Color& color) : _diffuse(color) {}

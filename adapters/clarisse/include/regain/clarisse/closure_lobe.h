@@ -6,6 +6,9 @@
 /// interface of host.h. A material is what <regain/shaders/material.h> describes; the object that
 /// the callbacks are given is a `const Material*`.
 ///
+/// A material of several closures gives each its entry weight, what is under a layer by the albedos
+/// of what lies on it.
+///
 /// A closure is one lobe; an interface between two media is one, too, with the event `either`,
 /// because its sampler picks the event. Only a closure whose samples are of both kinds, with and
 /// without density, becomes two lobes, of which each passes on its own kind.
@@ -95,7 +98,7 @@ private:
     static constexpr bool stochastic =
         regain::detail::TakesNumbersInEval<typename Closure::Prepared, Real>::value;
 
-    bool is_singular() const { return _kind == scatter::singular; }
+    bool is_singular() const { return label().is_singular(); }
 
     static Real none(color<Real>& weight, Real* reverse_pdf)
     {
@@ -147,13 +150,35 @@ private:
 
 namespace detail {
 
-/// Adds the closure's lobe, or two. False when the scratchpad is full.
+/// The lobes of a material before they have their weights.
+template <class Real>
+struct PendingLobes
+{
+    struct Pending
+    {
+        lobe_entry<Real> entry;
+        int closure;
+    };
+    Pending of[lobe_list<Real>::capacity];
+    int count = 0;
+
+    bool add(const lobe_entry<Real>& entry, int closure)
+    {
+        if (count == lobe_list<Real>::capacity || !entry.lobe) return false;
+        of[count++] = {entry, closure};
+        return true;
+    }
+};
+
+/// Adds the lobe of closure k, or two. False when the scratchpad is full. Its directional albedo
+/// goes where `albedo` points, unless that is null.
 template <class Closure>
-bool add_lobes(const Closure& closure, const char* name,
+bool add_lobes(const Closure& closure, int k, const char* name,
                const shading_point<typename Closure::Real>& point, scratchpad& pad,
-               lobe_list<typename Closure::Real>& list)
+               PendingLobes<typename Closure::Real>& list, color<typename Closure::Real>* albedo)
 {
     using Real = typename Closure::Real;
+    if (albedo) *albedo = color<Real>(Real(0));
 
     // Which way the surface faces. An interface has an outside. Of the others, single-sided ones
     // are black from behind, inverted ones from the front, double-sided ones turn towards the
@@ -184,13 +209,24 @@ bool add_lobes(const Closure& closure, const char* name,
     const vec3<Real> view = local(point.view), ng = local(point.ng * side);
 
     const Traits traits = closure.traits();
-    for (const scatter kind : {scatter::glossy, scatter::singular})
+    const scatter dense = is_diffuse(closure) ? scatter::diffuse : scatter::glossy,
+                  singular = passes_straight(closure) ? scatter::straight : scatter::singular;
+    const bxdf_lobe<Real>* made = nullptr;
+    for (const scatter kind : {dense, singular})
     {
-        if (kind == scatter::glossy ? is_delta(closure) : !traits.delta) continue;
+        if (kind == dense ? is_delta(closure) : !traits.delta) continue;
         const event ev = traits.transmissive ? event::either : event::reflection;
         if (!(lobe_label{ev, kind, name}.category() & point.wanted)) continue;
-        entry.lobe = pad.make<ClosureLobe<Closure>>(closure, name, view, ng, kind);
-        if (!list.add(entry)) return false;
+        made = entry.lobe = pad.make<ClosureLobe<Closure>>(closure, name, view, ng, kind);
+        if (!list.add(entry, k)) return false;
+    }
+    if (!albedo) return true;
+    if (made)
+        *albedo = made->albedo(view);
+    else
+    {
+        const auto a = closure.prepare(view).albedo();
+        *albedo = a.reflect + a.transmit;
     }
     return true;
 }
@@ -200,9 +236,30 @@ bool create_lobes(const void* data, const shading_point<Real>& point, scratchpad
                   lobe_list<Real>& list)
 {
     const Material& material = *static_cast<const Material*>(data);
-    return with_closure(material, point.multiple_scattering_strength, [&](const auto& closure) {
-        return add_lobes(closure, material.lobe_name(), point, pad, list);
-    });
+    constexpr int most = 16;
+    const int closures = lobe_count(material);
+    if (closures > most) return false;
+    PendingLobes<Real> pending;
+    color<Real> albedo[most], weight[most];
+    for (int k = 0; k < closures; ++k)
+    {
+        // One alone is not asked: its weight does not depend on it.
+        color<Real>* of_k = closures > 1 ? albedo + k : nullptr;
+        const bool added =
+            with_lobe(material, k, point.multiple_scattering_strength, [&](const auto& closure) {
+                return add_lobes(closure, k, lobe_name(material, k), point, pad, pending, of_k);
+            });
+        if (!added) return false;
+        if (!of_k) albedo[k] = color<Real>(Real(1));
+    }
+    lobe_weights(material, albedo, weight);
+    for (int j = 0; j < pending.count; ++j)
+    {
+        auto& p = pending.of[j];
+        p.entry.weight = weight[p.closure];
+        if (!list.add(p.entry)) return false;
+    }
+    return true;
 }
 
 }  // namespace detail

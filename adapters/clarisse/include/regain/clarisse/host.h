@@ -51,7 +51,8 @@ using color = Imath::Color3<Real>;
 
 /// What a lobe does; `either` is one lobe that does both, and the side of wo says which.
 enum class event : std::uint8_t { reflection = 'R', transmission = 'T', either = 'E' };
-enum class scatter : std::uint8_t { diffuse = 'D', glossy = 'G', singular = 'S' };
+/// straight is a singular lobe that lets light go on as if there were no surface.
+enum class scatter : std::uint8_t { diffuse = 'D', glossy = 'G', singular = 'S', straight = 's' };
 /// Which sides of a surface scatter. An interface has both: single_sided and double_sided leave its
 /// normals as they are, inverted turns it inside out.
 enum class sidedness : std::uint8_t { single_sided, double_sided, inverted };
@@ -73,6 +74,9 @@ struct lobe_label
     event ev = event::reflection;
     scatter sc = scatter::diffuse;
     const char* name = "";  ///< static storage
+
+    /// Its directions have no density.
+    bool is_singular() const { return sc == scatter::singular || sc == scatter::straight; }
 
     /// One bit, or two where the event is `either`.
     std::uint32_t category() const

@@ -206,17 +206,23 @@ public:
         for (int j = 0; j < n; ++j)
         {
             const Point& p = _points[at[j]];
-            const Vec3 wi = p.frame.to_local(L[j]);
+            Vec3 wi = p.frame.to_local(L[j]), wo = p.prepared.wo();
             if (albedo) albedo[j] = Color3(0.0f);
             pdf[j] = 0;
             if (!p.frame.is_on_its_side(L[j], wi)) continue;
+            // Seen from the other side, the frame would be turned there.
+            if (!two_media && wi.z < 0)
+            {
+                wi = Vec3(wi.x, -wi.y, -wi.z);
+                wo = Vec3(wo.x, -wo.y, -wo.z);
+            }
             const auto back = _closure.prepare(wi);
             if (albedo)
             {
                 const auto a = regain::expected_albedo(back);
                 albedo[j] = a.reflect + a.transmit;
             }
-            if (!discrete) pdf[j] = back.pdf(p.prepared.wo());
+            if (!discrete) pdf[j] = back.pdf(wo);
         }
     }
 

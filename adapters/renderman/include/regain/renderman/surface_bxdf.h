@@ -113,9 +113,7 @@ public:
             const int i = _pairs[j].at, k = _own[i];
             const SampledDirection& s = _samples[i];
             const float q = probability(i, k, lobesWanted[i] & _wanted);
-            // What a density is made of, all closures of that direction share.
-            const Color3 value = s.discrete ? s.value * q : s.value;
-            slots.of(k, sampled[i])[i] += weight(j, k) * value;
+            slots.of(k, sampled[i])[i] += weight(j, k) * s.value;
             fwdPdf[i] = q * s.pdf;
             if (revPdf) revPdf[i] = s.discrete ? back_probability(j, k, lobesWanted[i]) * s.pdf : 0;
         }

@@ -3,7 +3,7 @@
 
 #include "cloth.h"
 
-#include "bind_distribution.h"
+#include "bind_as.h"
 
 namespace regain::tools::preview {
 

@@ -83,19 +83,6 @@ MicrofacetMaterial floor_material()
     return shaders::SchlickMetal{C3f(0.3f), C3f(1.0f), 1.0f, 1.0f, Method::turquin};
 }
 
-std::unique_ptr<BoundMaterial> bind(const MicrofacetMaterial& material)
-{
-    using shaders::DistributionKind;
-    switch (material.distribution)
-    {
-        case DistributionKind::beckmann: return bind_beckmann(material);
-        case DistributionKind::gtr: return bind_gtr(material);
-        case DistributionKind::std: return bind_std(material);
-        case DistributionKind::ggx: break;
-    }
-    return bind_ggx(material);
-}
-
 namespace {
 
 std::vector<std::unique_ptr<BoundMaterial>> with_tables(

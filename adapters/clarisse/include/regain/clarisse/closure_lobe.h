@@ -148,8 +148,6 @@ private:
     scatter _kind;
 };
 
-namespace detail {
-
 /// The lobes of a material before they have their weights.
 template <class Real>
 struct PendingLobes
@@ -231,28 +229,23 @@ bool add_lobes(const Closure& closure, int k, const char* name,
     return true;
 }
 
-template <class Material, class Real>
-bool create_lobes(const void* data, const shading_point<Real>& point, scratchpad& pad,
-                  lobe_list<Real>& list)
+/// Fills the list with the lobes of a material of several closures. add(k, pending, albedo) adds
+/// those of closure k by add_lobes; weigh(albedo, weight) is its lobe_weights. False when something
+/// is full.
+template <class Real, class Add, class Weigh>
+bool assemble_lobes(int closures, const Add& add, const Weigh& weigh, lobe_list<Real>& list)
 {
-    const Material& material = *static_cast<const Material*>(data);
-    constexpr int most = 16;
-    const int closures = lobe_count(material);
+    constexpr int most = lobe_list<Real>::capacity;
     if (closures > most) return false;
     PendingLobes<Real> pending;
     color<Real> albedo[most], weight[most];
     for (int k = 0; k < closures; ++k)
     {
+        albedo[k] = color<Real>(Real(1));
         // One alone is not asked: its weight does not depend on it.
-        color<Real>* of_k = closures > 1 ? albedo + k : nullptr;
-        const bool added =
-            with_lobe(material, k, point.multiple_scattering_strength, [&](const auto& closure) {
-                return add_lobes(closure, k, lobe_name(material, k), point, pad, pending, of_k);
-            });
-        if (!added) return false;
-        if (!of_k) albedo[k] = color<Real>(Real(1));
+        if (!add(k, pending, closures > 1 ? albedo + k : nullptr)) return false;
     }
-    lobe_weights(material, albedo, weight);
+    weigh(albedo, weight);
     for (int j = 0; j < pending.count; ++j)
     {
         auto& p = pending.of[j];
@@ -260,6 +253,24 @@ bool create_lobes(const void* data, const shading_point<Real>& point, scratchpad
         if (!list.add(p.entry)) return false;
     }
     return true;
+}
+
+namespace detail {
+
+template <class Material, class Real>
+bool create_lobes(const void* data, const shading_point<Real>& point, scratchpad& pad,
+                  lobe_list<Real>& list)
+{
+    const Material& material = *static_cast<const Material*>(data);
+    const auto add = [&](int k, PendingLobes<Real>& pending, color<Real>* albedo) {
+        return with_lobe(material, k, point.multiple_scattering_strength, [&](const auto& closure) {
+            return add_lobes(closure, k, lobe_name(material, k), point, pad, pending, albedo);
+        });
+    };
+    const auto weigh = [&](const color<Real>* albedo, color<Real>* weight) {
+        lobe_weights(material, albedo, weight);
+    };
+    return assemble_lobes<Real>(lobe_count(material), add, weigh, list);
 }
 
 }  // namespace detail

@@ -2,7 +2,7 @@
 // Copyright Contributors to the Regain project
 
 /// @file
-/// A BoundMaterial of one type of material: for the files that compile one each.
+/// A BoundMaterial of one type of material that is not made of trees.
 
 #pragma once
 
@@ -26,20 +26,6 @@ private:
     Material _material;
     renderman::ClosureFactory<Material> _factory;
     clarisse::material_callbacks<float> _callbacks = clarisse::closure_callbacks<Material, float>();
-};
-
-/// A MicrofacetMaterial of this distribution.
-template <template <class> class Distribution>
-struct MaterialOf
-{
-    shaders::MicrofacetMaterial value;
-
-    template <class Real, class Visit>
-    decltype(auto) with_closure(Real strength, const Visit& visit) const
-    {
-        return value.with_closure_of<Distribution>(strength, visit);
-    }
-    const char* lobe_name() const { return value.lobe_name(); }
 };
 
 }  // namespace regain::tools::preview

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+/// @file
+/// How a closure of a tree becomes lobes of either host. The adapters of all the closures that a
+/// material may be are the bulk of what the preview takes to compile: they are in one file per
+/// distribution, and one for what has no microfacets.
+
+#pragma once
+
+#include <regain/clarisse/closure_lobe.h>
+#include <regain/renderman/lobe_batch.h>
+#include <regain/shaders/closure_tree.h>
+
+namespace regain::tools::preview {
+
+/// A closure of a tree, at a point of the one-point host.
+struct PointLobe
+{
+    int k;
+    const char* name;
+    const clarisse::shading_point<float>& point;
+    clarisse::scratchpad& pad;
+    clarisse::PendingLobes<float>& pending;
+    clarisse::color<float>* albedo;
+};
+
+/// Each is asked about materials of its own kind only.
+struct LobeMaker
+{
+    using Material = shaders::ClosureTree::Material;
+
+    renderman::LobeBatch* (*batch)(const renderman::ShadingContext*, const Material&,
+                                   const char* name);
+    bool (*add)(const Material&, const PointLobe&);
+};
+
+extern const LobeMaker ggx_lobes, beckmann_lobes, gtr_lobes, std_lobes, plain_lobes;
+
+/// with(material, strength, visit) calls visit with the material's closure.
+template <class With>
+struct MakesLobes
+{
+    static renderman::LobeBatch* batch(const renderman::ShadingContext* ctx,
+                                       const LobeMaker::Material& material, const char* name)
+    {
+        return With::call(material, 1.0f, [&](const auto& closure) {
+            return renderman::make_batch(ctx, closure, name);
+        });
+    }
+    static bool add(const LobeMaker::Material& material, const PointLobe& l)
+    {
+        return With::call(material, l.point.multiple_scattering_strength, [&](const auto& closure) {
+            return clarisse::add_lobes(closure, l.k, l.name, l.point, l.pad, l.pending, l.albedo);
+        });
+    }
+    static constexpr LobeMaker maker{&batch, &add};
+};
+
+/// Of one distribution.
+template <template <class> class Distribution>
+struct WithDistribution
+{
+    template <class Visit>
+    static decltype(auto) call(const LobeMaker::Material& material, float strength,
+                               const Visit& visit)
+    {
+        return std::get<shaders::MicrofacetMaterial>(material).with_closure_of<Distribution>(
+            strength, visit);
+    }
+};
+
+}  // namespace regain::tools::preview

@@ -83,6 +83,27 @@ double bare_albedo(ClosureSpec spec, const Imath::V3d& wo)
     return albedo.reflect.y + albedo.transmit.y;
 }
 
+// Of what the tables know of anisotropic lobes, docs/methods.md, "Anisotropy"; nothing beyond that.
+std::optional<double> anisotropic_error(const ClosureSpec& spec, double mu)
+{
+    const double wider = std::max(spec.alpha_x, spec.alpha_y),
+                 narrower = std::min(spec.alpha_x, spec.alpha_y);
+    if (wider > 20 * narrower) return std::nullopt;
+    if (spec.lobe == Lobe::dielectric && !spec.interface.thin_walled)
+    {
+        const double index = std::max(spec.interface.eta, 1 / spec.interface.eta);
+        if (shaders::has_gamma(spec.distribution) || spec.interface.mode != ScatterMode::RT ||
+            index < 1.1 || index > 3 || wider < 0.05 || mu < 0.03)
+            return std::nullopt;
+        return 2.5e-2;
+    }
+    if (wider < 0.01 || mu < 0.01) return std::nullopt;
+    if (spec.distribution == DistributionKind::gtr &&
+        std::holds_alternative<shaders::Balanced>(spec.method))
+        return 5e-2;
+    return wider > 10 * narrower ? 2e-2 : 1e-2;
+}
+
 }  // namespace
 
 Promises promises_of(const ClosureSpec& spec, const Imath::V3d& wo)
@@ -182,9 +203,12 @@ Promises promises_of(const ClosureSpec& spec, const Imath::V3d& wo)
     if (!walks && (!in_range || !isotropic || alpha < 1e-3)) p.furnace = std::nullopt;
     if (!isotropic)
     {
-        // Compensated, and tabulated, by one width.
-        p.albedo = std::nullopt;
-        if (compensates) p.surplus = std::nullopt;
+        const std::optional<double> error = anisotropic_error(spec, mu);
+        if (p.albedo && error)
+            *p.albedo += *error;
+        else
+            p.albedo = std::nullopt;
+        if (compensates) p.surplus = error;
     }
     else if (compensates)
         p.surplus = p.furnace;

@@ -64,8 +64,9 @@ struct Mixture
     }
     const char* lobe_name(int k) const
     {
-        constexpr const char* names[] = {"metal", "diffuse", "translucent"};
-        return k == 2 && clear ? "transparent" : names[k];
+        if (k == 0) return "metal";
+        if (k == 1) return "diffuse";
+        return clear ? "transparent" : "translucent";
     }
 
     // The closure that all of it is.

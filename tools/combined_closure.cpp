@@ -85,9 +85,11 @@ public:
             s.weight *= _weight[0];
             return s;
         }
-        const bool first = u.z < _p;
+        // A number that is none is 0.
+        const double pick = regain::detail::saturate(u.z);
+        const bool first = pick < _p || _p == 1;
         const double chosen = first ? _p : 1 - _p;
-        const double z = std::clamp((first ? u.z : u.z - _p) / chosen, 0.0, last);
+        const double z = std::clamp((first ? pick : pick - _p) / chosen, 0.0, last);
         Sample<double> s = (first ? *_first : *_second).sample(Imath::V3d(u.x, u.y, z));
         if (!s.valid) return s;
         if (s.delta)

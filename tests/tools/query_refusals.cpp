@@ -113,9 +113,14 @@ TEST(query_refusals, what_combinations_of_closures_lack)
             {"'precision'", "whole"}},
            {layered, "base", {{"closure", "sheen"}, {"colour", zero_to_one}}, {"colour"}},
            {layered, "alpha", 0.5, {"'alpha'", "parts"}},
-           {layered, "mix", 0.5, {"'mix'"}},
-           {layered, "op", "gain", {"ask for those of its parts"}},
-           {layered, "op", "fresnel", {"layer"}}});
+           {layered, "mix", 0.5, {"'mix'"}}});
+    json gain = layered;
+    gain["op"] = "gain";
+    gain.erase("wi");
+    EXPECT_NE(refusal(gain.dump()).find("ask for those of its parts"), std::string::npos);
+    gain["op"] = "fresnel";
+    EXPECT_NE(refusal(gain.dump()).find("the closure layer has no Fresnel term"),
+              std::string::npos);
     const json mixed{{"op", "eval"}, {"closure", "mix"}, {"mu", 0.5}, {"wi", {0, 0, 1}},
                      {"fg", part},   {"bg", part},       {"mix", 0.5}};
     check({{mixed, "mix", 2, {"'mix' is 2", "from 0 to 1"}}, {mixed, "fg", 3, {"'fg'"}}});

@@ -239,9 +239,9 @@ bool assemble_lobes(int closures, const Add& add, const Weigh& weigh, lobe_list<
     if (closures > most) return false;
     PendingLobes<Real> pending;
     color<Real> albedo[most], weight[most];
+    for (color<Real>& a : albedo) a = color<Real>(Real(1));
     for (int k = 0; k < closures; ++k)
     {
-        albedo[k] = color<Real>(Real(1));
         // One alone is not asked: its weight does not depend on it.
         if (!add(k, pending, closures > 1 ? albedo + k : nullptr)) return false;
     }

@@ -125,10 +125,9 @@ Promises promises_of(const ClosureSpec& spec, const Imath::V3d& wo)
 
     if (spec.combination)
     {
-        // As exact as what the albedo of the coat is looked up in; Sum weighs one lobe's samples
-        // against the density of both.
-        p.furnace = p.albedo = 5e-3;
-        p.surplus = 3e-3;
+        // As exact as the table of how much the coat reflects, which is good from outside; one
+        // closure's samples are weighed against the density of both.
+        p.albedo = p.surplus = spec.combination->first->interface.eta < 1 ? 5e-2 : 5e-3;
         p.weight = std::nullopt;
         return p;
     }
@@ -136,6 +135,8 @@ Promises promises_of(const ClosureSpec& spec, const Imath::V3d& wo)
     {
         if (spec.lobe == Lobe::burley_diffuse) p.surplus = std::nullopt;
         if (spec.lobe == Lobe::sheen) p.surplus = 2e-3;  // what is divided by is fitted
+        // Oren and Nayar's own, where it is nearly smooth, at grazing angles.
+        if (spec.lobe == Lobe::oren_nayar_diffuse) p.surplus = 2e-2;
         // By the cosine, where the model rises at grazing directions.
         p.weight = spec.lobe == Lobe::burley_diffuse ? 6.3 : spec.lobe == Lobe::sheen ? 3 : 4;
         return p;

@@ -244,21 +244,22 @@ private:
             material.surface);
     }
 
-    ClosureSpec specified(const Parameters& p) const { return specified(_spec, p); }
+    ClosureSpec specified(const Parameters& p) const { return specified(_spec, p, p.alpha_x); }
 
-    // White, where it has a colour.
-    static ClosureSpec specified(ClosureSpec spec, const Parameters& p)
+    // White, where it has a colour. `roughness` is that of what has no microfacets: the widths of
+    // others may be exchanged.
+    static ClosureSpec specified(ClosureSpec spec, const Parameters& p, double roughness)
     {
         using conformance::Reflectance;
         if (spec.combination)
             for (auto* part : {&spec.combination->first, &spec.combination->second})
-                *part = std::make_shared<const ClosureSpec>(specified(**part, p));
+                *part = std::make_shared<const ClosureSpec>(specified(**part, p, 0.5));
         if (spec.plain)
             std::visit(
                 [&](auto& s) {
                     s.color = ColorD(1.0);
                     if constexpr (HasRoughness<std::decay_t<decltype(s)>>::value)
-                        s.roughness = p.alpha_x;
+                        s.roughness = roughness;
                 },
                 spec.plain->surface);
         spec.precision = p.in_double ? Precision::twice : Precision::single;

@@ -69,8 +69,10 @@ void ClosureTree::set_root(Node root)
 
 void ClosureTree::bind_tables(bool for_albedo)
 {
+    // Of several, each is asked for its albedo at every point.
+    const bool asked = for_albedo || _lobes.size() > 1;
     for (Lobe& l : _lobes)
-        if (auto* m = std::get_if<MicrofacetMaterial>(&l.material)) m->bind_tables(for_albedo);
+        if (auto* m = std::get_if<MicrofacetMaterial>(&l.material)) m->bind_tables(asked);
 }
 
 // `any` becomes true where a closure is left in, whose energy is then on the stack.

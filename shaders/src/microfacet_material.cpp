@@ -156,6 +156,9 @@ void MicrofacetMaterial::bind_tables(bool for_albedo)
         if (balanced) luts::add_balance(_tables, names);
         if (balanced && alpha_x != alpha_y) luts::add_balance_anisotropy(_tables, names);
         if (tail) luts::add_later_shape(_tables, names);
+        // The gain of mode R is a mirror's, but how much it reflects is the interface's.
+        if (for_albedo && interface && !interface->thin_walled && !has_gamma(distribution))
+            _interface_tables = luts::dielectric_tables(names, interface->shadowing);
     }
     else if (bounded)
     {

@@ -57,7 +57,8 @@ public:
     /// combinations in one another than `deepest`, naming both numbers.
     REGAIN_SHADERS_API void set_root(Node);
 
-    /// Of all closures: see MicrofacetMaterial.
+    /// Of all closures: see MicrofacetMaterial. Where there are several, each has to know its
+    /// albedo.
     REGAIN_SHADERS_API void bind_tables(bool for_albedo = false);
 
     /// Of those that are left in.

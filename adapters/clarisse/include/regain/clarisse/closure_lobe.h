@@ -20,8 +20,7 @@
 #include <regain/clarisse/host.h>
 #include <regain/closures/host_queries.h>
 #include <regain/closures/random_stream.h>
-
-#include <cmath>
+#include <regain/closures/shading_frame.h>
 
 REGAIN_NAMESPACE_BEGIN
 namespace clarisse {
@@ -39,7 +38,7 @@ public:
     ClosureLobe(const Closure& closure, const char* name, const vec3<Real>& view,
                 const vec3<Real>& ng, scatter kind)
         : _closure(closure),
-          _prepared(closure.prepare(known(view, ng))),
+          _prepared(closure.prepare(known_direction(view, ng.dot(view)))),
           _view(view),
           _ng(ng),
           _name(name),
@@ -107,19 +106,7 @@ private:
         return 0;
     }
 
-    // The shading normal and the true one agree on which side a direction is.
-    bool is_on_its_side(const vec3<Real>& wo) const { return is_on_its_side(wo, _ng); }
-    static bool is_on_its_side(const vec3<Real>& w, const vec3<Real>& ng)
-    {
-        const Real side = ng.dot(w);
-        return w.z < 0 ? side < 0 : side > 0;
-    }
-
-    // Where they do not, the closure is asked about no direction and is black.
-    static vec3<Real> known(const vec3<Real>& wi, const vec3<Real>& ng)
-    {
-        return is_on_its_side(wi, ng) ? wi : vec3<Real>(Real(0));
-    }
+    bool is_on_its_side(const vec3<Real>& wo) const { return sides_agree(wo.z, _ng.dot(wo)); }
 
     template <class Prepared>
     static color<Real> value(const Prepared& prepared, [[maybe_unused]] const vec3<Real>& wi,
@@ -138,7 +125,8 @@ private:
     template <class Ask>
     auto with_known(const vec3<Real>& wi, const Ask& ask) const
     {
-        return wi == _view ? ask(_prepared) : ask(_closure.prepare(known(wi, _ng)));
+        return wi == _view ? ask(_prepared)
+                           : ask(_closure.prepare(known_direction(wi, _ng.dot(wi))));
     }
 
     Closure _closure;
@@ -189,22 +177,12 @@ bool add_lobes(const Closure& closure, int k, const char* name,
         return true;
     const Real side = turned ? Real(-1) : Real(1);
 
+    const auto frame = ShadingFrame<Real>::of(point.ns * side, point.ng * side, point.tangent);
+    const vec3<Real> view = frame.to_local(point.view), ng = frame.to_local(frame.geometric);
     lobe_entry<Real> entry;
-    entry.z = point.ns * side;
-    vec3<Real> t = point.tangent - entry.z * entry.z.dot(point.tangent);
-    if (!(t.dot(t) > Real(1e-12)))
-    {
-        const vec3<Real> axis =
-            entry.z.x * entry.z.x < Real(0.5) ? vec3<Real>(1, 0, 0) : vec3<Real>(0, 1, 0);
-        t = axis - entry.z * entry.z.dot(axis);
-    }
-    entry.x = t * (Real(1) / std::sqrt(t.dot(t)));
-    entry.y = entry.z.cross(entry.x);
-
-    const auto local = [&](const vec3<Real>& w) {
-        return vec3<Real>(w.dot(entry.x), w.dot(entry.y), w.dot(entry.z));
-    };
-    const vec3<Real> view = local(point.view), ng = local(point.ng * side);
+    entry.x = frame.x;
+    entry.y = frame.y;
+    entry.z = frame.z;
 
     const Traits traits = closure.traits();
     const scatter dense = is_diffuse(closure) ? scatter::diffuse : scatter::glossy,
@@ -223,7 +201,7 @@ bool add_lobes(const Closure& closure, int k, const char* name,
         *albedo = made->albedo(view);
     else
     {
-        const auto a = closure.prepare(view).albedo();
+        const auto a = closure.prepare(known_direction(view, ng.dot(view))).albedo();
         *albedo = a.reflect + a.transmit;
     }
     return true;

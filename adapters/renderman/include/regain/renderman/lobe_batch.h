@@ -14,7 +14,8 @@
 
 #include <regain/closures/host_queries.h>
 #include <regain/closures/random_stream.h>
-#include <regain/renderman/frame.h>
+#include <regain/closures/shading_frame.h>
+#include <regain/renderman/host.h>
 
 #include <cstring>
 #include <new>
@@ -141,7 +142,8 @@ public:
         for (int i = 0; i < ctx->numPts; ++i)
         {
             const Vec3 &V = ctx->Vn[i], &N = ctx->Nn[i], &Ng = ctx->Ngn[i], &T = ctx->Tn[i];
-            const Frame frame = self->two_media ? Frame::of(N, Ng, T) : Frame::facing(V, N, Ng, T);
+            const auto frame = self->two_media ? ShadingFrame<float>::of(N, Ng, T)
+                                               : ShadingFrame<float>::facing(V, N, Ng, T);
             new (points + i) Point{frame, used.prepare(frame.known(V))};
         }
         return self;
@@ -232,7 +234,7 @@ private:
 
     struct Point
     {
-        Frame frame;
+        ShadingFrame<float> frame;
         Prepared prepared;
     };
 

@@ -5,6 +5,7 @@
 #include "lobe_maker.h"
 
 #include <regain/renderman/surface_bxdf.h>
+#include <regain/renderman/uniform_presence.h>
 
 namespace regain::tools::preview {
 
@@ -44,6 +45,18 @@ public:
             });
     }
 
+    bool computesPresence(const void* instanceData) const override
+    {
+        return instanceData && static_cast<const ClosureTree*>(instanceData)->presence() < 1;
+    }
+    renderman::Opacity* beginOpacity(const renderman::ShadingContext* ctx, renderman::ShadeMode,
+                                     void*, void* instanceData) override
+    {
+        if (!computesPresence(instanceData)) return nullptr;
+        return renderman::UniformPresence::create(
+            ctx, presence_of<float>(*static_cast<const ClosureTree*>(instanceData)));
+    }
+
 private:
     static Imath::C3f weights(const void* tree, const Imath::C3f* albedo, Imath::C3f* weight)
     {
@@ -77,6 +90,11 @@ public:
         };
         _callbacks.destroy_module_data = [](const void*, void*) {};
         _callbacks.create_lobes = &create_lobes;
+        if (tree.presence() < 1)
+            _callbacks.opacity = [](const void* data, const clarisse::shading_point<float>&) {
+                return clarisse::color<float>(
+                    presence_of<float>(*static_cast<const ClosureTree*>(data)));
+            };
     }
     GridMaterial grid() override { return {&_factory, &_tree}; }
     PointMaterial point() override { return {&_callbacks, &_tree}; }

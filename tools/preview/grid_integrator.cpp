@@ -53,13 +53,17 @@ struct GridIntegrator::Path : PathState
 {
     Sampler sampler;
     Hit hit;
+    int scattered = 0;
+    bool went_by = false;  ///< the surface it was at last
 };
 
 /// Arrays of one batch, as the interface wants them.
 struct GridIntegrator::Workspace
 {
-    Arena arena;
+    Arena arena, query_arena;
     BatchRng rng;
+    Path* present[kBatch];
+    C3f opacity[kBatch];
     const Sampler* samplers[kBatch];
     V3f view[kBatch], normal[kBatch], geometric_normal[kBatch], tangent[kBatch];
 
@@ -69,6 +73,29 @@ struct GridIntegrator::Workspace
     renderman::Lobe sampled[kBatch];
     C3f weights[static_cast<std::size_t>(renderman::kMaxActive) * kBatch];
     float forward_pdf[kBatch], reverse_pdf[kBatch], ior[kBatch];
+
+    /// Of these paths where they are.
+    renderman::ShadingContext context(Path* const* paths, int n)
+    {
+        for (int i = 0; i < n; ++i)
+        {
+            const Hit& hit = paths[i]->hit;
+            samplers[i] = &paths[i]->sampler;
+            view[i] = -paths[i]->ray.direction;
+            normal[i] = hit.normal;
+            geometric_normal[i] = hit.geometric_normal;
+            tangent[i] = hit.tangent;
+        }
+        renderman::ShadingContext c;
+        c.numPts = n;
+        c.Vn = view;
+        c.Nn = normal;
+        c.Ngn = geometric_normal;
+        c.Tn = tangent;
+        c.allocFn = &Arena::allocate_from;
+        c.arena = &arena;
+        return c;
+    }
 
     /// Where `to` lies as seen from the viewer of point i, by the geometric normal.
     renderman::Domain place(int i, const V3f& to) const
@@ -82,7 +109,9 @@ struct GridIntegrator::Workspace
 
 GridIntegrator::GridIntegrator(const World& world, std::vector<GridMaterial> materials)
     : _world(world), _materials(std::move(materials))
-{}
+{
+    for (const GridMaterial& m : _materials) _some_let_by = _some_let_by || lets_by(m);
+}
 
 void GridIntegrator::render(const Tile& tile, int first, int count, Film& film) const
 {
@@ -113,7 +142,7 @@ void GridIntegrator::render(const Tile& tile, int first, int count, Film& film) 
         {
             if (!_world.scene.intersect(path->ray, &path->hit))
                 add_environment(_world.environment, *path);
-            else if (bounce < _world.max_bounces)
+            else if (path->scattered < _world.max_bounces)
                 by_material[static_cast<std::size_t>(path->hit.material)].push_back(path);
         }
         alive.clear();
@@ -127,7 +156,8 @@ void GridIntegrator::render(const Tile& tile, int first, int count, Film& film) 
                 for (int i = 0; i < n; ++i)
                 {
                     Path* path = group[begin + static_cast<std::size_t>(i)];
-                    if (path->throughput != C3f(0.0f) && survives(*path, bounce, path->sampler))
+                    if (path->throughput == C3f(0.0f)) continue;
+                    if (path->went_by || survives(*path, bounce, path->sampler))
                         alive.push_back(path);
                 }
             }
@@ -145,24 +175,13 @@ void GridIntegrator::shade(const GridMaterial& material, Path* const* paths, int
                            Workspace& w) const
 {
     w.arena.reset();
-    for (int i = 0; i < n; ++i)
+    if (lets_by(material))
     {
-        const Hit& hit = paths[i]->hit;
-        w.samplers[i] = &paths[i]->sampler;
-        w.view[i] = -paths[i]->ray.direction;
-        w.normal[i] = hit.normal;
-        w.geometric_normal[i] = hit.geometric_normal;
-        w.tangent[i] = hit.tangent;
+        n = keep_present(material, paths, n, bounce, w);
+        paths = w.present;
+        if (n == 0) return;
     }
-
-    renderman::ShadingContext context;
-    context.numPts = n;
-    context.Vn = w.view;
-    context.Nn = w.normal;
-    context.Ngn = w.geometric_normal;
-    context.Tn = w.tangent;
-    context.allocFn = &Arena::allocate_from;
-    context.arena = &w.arena;
+    const renderman::ShadingContext context = w.context(paths, n);
     renderman::Bxdf* bxdf = material.factory->beginScatter(&context, renderman::LobeSet::all(),
                                                            renderman::ShadeMode::Scatter, nullptr,
                                                            material.instance_data);
@@ -170,6 +189,62 @@ void GridIntegrator::shade(const GridMaterial& material, Path* const* paths, int
     add_direct_light(*bxdf, paths, n, bounce, w);
     scatter(*bxdf, paths, n, bounce, w);
     material.factory->endScatter(bxdf);
+}
+
+bool GridIntegrator::lets_by(const GridMaterial& material) const
+{
+    return material.factory->computesPresence(material.instance_data);
+}
+
+void GridIntegrator::opacity_of(const GridMaterial& material,
+                                const renderman::ShadingContext& context, C3f* result)
+{
+    renderman::Opacity* opacity = material.factory->beginOpacity(
+        &context, renderman::ShadeMode::PresenceQuery, nullptr, material.instance_data);
+    float presence[kBatch];
+    const bool some = opacity && opacity->presence(presence),
+               coloured = opacity && opacity->opacity(result);
+    for (int i = 0; i < context.numPts; ++i)
+    {
+        if (!coloured) result[i] = C3f(1.0f);
+        if (some) result[i] *= presence[i];
+    }
+    if (opacity) material.factory->endOpacity(opacity);
+}
+
+/// Where a ray to a light meets a surface.
+C3f GridIntegrator::opacity_at(const Hit& hit, const V3f& view, Workspace& w) const
+{
+    const GridMaterial& material = _materials[static_cast<std::size_t>(hit.material)];
+    if (!lets_by(material)) return C3f(1.0f);
+    w.query_arena.reset();
+    renderman::ShadingContext context;
+    context.numPts = 1;
+    context.Vn = &view;
+    context.Nn = &hit.normal;
+    context.Ngn = &hit.geometric_normal;
+    context.Tn = &hit.tangent;
+    context.allocFn = &Arena::allocate_from;
+    context.arena = &w.query_arena;
+    C3f result;
+    opacity_of(material, context, &result);
+    return result;
+}
+
+/// Sends on the paths that go by the material. The others are w.present, as many as returned.
+int GridIntegrator::keep_present(const GridMaterial& material, Path* const* paths, int n,
+                                 int bounce, Workspace& w) const
+{
+    opacity_of(material, w.context(paths, n), w.opacity);
+    int present = 0;
+    for (int i = 0; i < n; ++i)
+    {
+        Path& path = *paths[i];
+        const float u = path.sampler.get1D(dimension(Draw::Opacity, bounce));
+        path.went_by = goes_by(path, path.hit, w.opacity[i], u);
+        if (!path.went_by) w.present[present++] = &path;
+    }
+    return present;
 }
 
 /// Next-event estimation: one light sample a point.
@@ -197,10 +272,13 @@ void GridIntegrator::add_direct_light(renderman::Bxdf& bxdf, Path* const* paths,
         if (!w.wanted[i].any() || !w.evaluated[i].any()) continue;
         const C3f value = weights.total(i);
         if (value == C3f(0.0f)) continue;
-        if (_world.scene.occluded(paths[i]->hit.leave(w.direction[i]))) continue;
+        const C3f visible =
+            visibility(_world.scene, paths[i]->hit.leave(w.direction[i]), _some_let_by,
+                       [&](const Hit& hit) { return opacity_at(hit, -w.direction[i], w); });
+        if (visible == C3f(0.0f)) continue;
         const Environment::Light& light = w.light[i];
         const float share = mis_weight(light.pdf, w.forward_pdf[i]) / light.pdf;
-        paths[i]->radiance += paths[i]->throughput * value * light.radiance * share;
+        paths[i]->radiance += paths[i]->throughput * value * visible * light.radiance * share;
     }
 }
 
@@ -236,6 +314,7 @@ void GridIntegrator::scatter(renderman::Bxdf& bxdf, Path* const* paths, int n, i
         if (two_media && !lobe.reflect)
             pass_interface(path, w.ior[i], w.view[i].dot(w.geometric_normal[i]) > 0.0f);
         path.ray = path.hit.leave(direction);
+        ++path.scattered;
         path.pdf = pdf;
         path.alone = lobe.discrete;
     }

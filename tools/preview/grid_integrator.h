@@ -35,12 +35,18 @@ private:
     struct Path;
 
     void shade(const GridMaterial&, Path* const* paths, int n, int bounce, Workspace&) const;
+    bool lets_by(const GridMaterial&) const;
+    static void opacity_of(const GridMaterial&, const renderman::ShadingContext&,
+                           Imath::C3f* result);
+    Imath::C3f opacity_at(const Hit&, const Imath::V3f& view, Workspace&) const;
+    int keep_present(const GridMaterial&, Path* const* paths, int n, int bounce, Workspace&) const;
     void add_direct_light(renderman::Bxdf&, Path* const* paths, int n, int bounce,
                           Workspace&) const;
     void scatter(renderman::Bxdf&, Path* const* paths, int n, int bounce, Workspace&) const;
 
     World _world;
     std::vector<GridMaterial> _materials;
+    bool _some_let_by = false;
 };
 
 }  // namespace regain::tools::preview

@@ -29,7 +29,7 @@ struct World
     const Camera& camera;
     int width, height;  ///< of the frame, pixels
     std::uint32_t seed = 1;
-    int max_bounces = 8;  ///< surface interactions per path
+    int max_bounces = 8;  ///< surface interactions per path; to go by a surface is none
 };
 
 /// Pixels [x0, x1) x [y0, y1).
@@ -49,7 +49,7 @@ public:
 };
 
 /// Dimensions of the sampler: each bounce has a block of its own.
-enum class Draw : std::uint32_t { Pixel, Light, Evaluate, Scatter, Lobe, Roulette };
+enum class Draw : std::uint32_t { Pixel, Light, Evaluate, Scatter, Lobe, Roulette, Opacity };
 inline std::uint32_t dimension(Draw draw, int bounce)
 {
     return static_cast<std::uint32_t>(draw) + 64u * static_cast<std::uint32_t>(bounce);
@@ -115,6 +115,34 @@ inline void add_environment(const Environment& environment, PathState& path)
 inline void pass_interface(PathState& path, float ior, bool inwards)
 {
     path.energy *= inwards ? ior * ior : 1.0f / (ior * ior);
+}
+
+/// Whether a path goes by a surface, of which `opacity` in [0, 1] per channel is there; by chance,
+/// u being uniform in [0, 1). A path that does knows as much of lights as before: what the surface
+/// it left by sampled towards them has gone by this one, too.
+inline bool goes_by(PathState& path, const Hit& hit, const Imath::C3f& opacity, float u)
+{
+    const Imath::C3f rest = Imath::C3f(1.0f) - opacity;
+    const float chance = (rest.x + rest.y + rest.z) / 3.0f;
+    const bool by = u < chance;
+    path.throughput *= by ? rest / chance : opacity / (1.0f - chance);
+    if (by) path.ray = hit.leave(path.ray.direction);
+    return by;
+}
+
+/// What goes by all that a ray meets; opacity(hit) is asked where `some_let_by`.
+template <class OpacityAt>
+Imath::C3f visibility(const Scene& scene, Ray ray, bool some_let_by, const OpacityAt& opacity)
+{
+    if (!some_let_by) return Imath::C3f(scene.occluded(ray) ? 0.0f : 1.0f);
+    Imath::C3f share(1.0f);
+    Hit hit;
+    while (share != Imath::C3f(0.0f) && scene.intersect(ray, &hit))
+    {
+        share *= Imath::C3f(1.0f) - opacity(hit);
+        ray = hit.leave(ray.direction);
+    }
+    return share;
 }
 
 /// Ends dim paths by chance from the fourth bounce on, without bias. A throughput of 1, as white

@@ -21,6 +21,18 @@ constexpr std::size_t kPadBytes = 64 * 1024;
 V3f to_local(const Entry& e, const V3f& v) { return {v.dot(e.x), v.dot(e.y), v.dot(e.z)}; }
 V3f to_world(const Entry& e, const V3f& v) { return e.x * v.x + e.y * v.y + e.z * v.z; }
 
+clarisse::shading_point<float> shading_point_at(const Hit& hit, const V3f& view)
+{
+    clarisse::shading_point<float> point;
+    point.p = hit.position;
+    point.ng = hit.geometric_normal;
+    point.ns = hit.normal;
+    point.tangent = hit.tangent;
+    point.view = view;
+    point.front_facing = hit.geometric_normal.dot(view) > 0.0f;
+    return point;
+}
+
 /// The lobes of one point as the host mixes them.
 struct Mixture
 {
@@ -87,6 +99,7 @@ PointIntegrator::PointIntegrator(const World& world, const std::vector<PointMate
             throw std::runtime_error("a material refused to be prepared for the one-point host");
         }
         _materials.push_back({m, data});
+        _some_let_by = _some_let_by || m.callbacks->opacity;
     }
 }
 
@@ -115,7 +128,7 @@ void PointIntegrator::render(const Tile& tile, int first, int count, Film& film)
 
 C3f PointIntegrator::trace(PathState path, const Sampler& sampler, Workspace& workspace) const
 {
-    for (int b = 0;; ++b)
+    for (int b = 0, scattered = 0;; ++b)
     {
         Hit hit;
         if (!_world.scene.intersect(path.ray, &hit))
@@ -123,26 +136,38 @@ C3f PointIntegrator::trace(PathState path, const Sampler& sampler, Workspace& wo
             add_environment(_world.environment, path);
             break;
         }
-        if (b == _world.max_bounces || !bounce(path, hit, sampler, b, workspace)) break;
+        if (scattered == _world.max_bounces) break;
+        if (bound_at(hit).material.callbacks->opacity)
+        {
+            const float u = sampler.get1D(dimension(Draw::Opacity, b));
+            if (goes_by(path, hit, opacity_at(hit, -path.ray.direction), u)) continue;
+        }
+        if (!bounce(path, hit, sampler, b, workspace)) break;
         if (!survives(path, b, sampler)) break;
+        ++scattered;
     }
     return path.radiance;
+}
+
+const PointIntegrator::Bound& PointIntegrator::bound_at(const Hit& hit) const
+{
+    return _materials[static_cast<std::size_t>(hit.material)];
+}
+
+C3f PointIntegrator::opacity_at(const Hit& hit, const V3f& view) const
+{
+    const Bound& bound = bound_at(hit);
+    const auto opacity = bound.material.callbacks->opacity;
+    return opacity ? opacity(bound.data, shading_point_at(hit, view)) : C3f(1.0f);
 }
 
 /// Adds direct light and gives the path its next ray; false when the path ends here.
 bool PointIntegrator::bounce(PathState& path, const Hit& hit, const Sampler& sampler, int bounce,
                              Workspace& workspace) const
 {
-    const Bound& bound = _materials[static_cast<std::size_t>(hit.material)];
+    const Bound& bound = bound_at(hit);
     const V3f view = -path.ray.direction;
-
-    clarisse::shading_point<float> point;
-    point.p = hit.position;
-    point.ng = hit.geometric_normal;
-    point.ns = hit.normal;
-    point.tangent = hit.tangent;
-    point.view = view;
-    point.front_facing = hit.geometric_normal.dot(view) > 0.0f;
+    const clarisse::shading_point<float> point = shading_point_at(hit, view);
 
     workspace.pad.reset();
     Mixture mixture;
@@ -177,9 +202,15 @@ bool PointIntegrator::bounce(PathState& path, const Hit& hit, const Sampler& sam
         C3f value(0.0f);
         float pdf = 0.0f;
         mixture.evaluate(to_light, -1, &value, &pdf);
-        if (value != C3f(0.0f) && !_world.scene.occluded(hit.leave(to_light)))
-            path.radiance +=
-                path.throughput * value * light.radiance * (mis_weight(light.pdf, pdf) / light.pdf);
+        const C3f visible = value == C3f(0.0f)
+                                ? C3f(0.0f)
+                                : visibility(_world.scene, hit.leave(to_light), _some_let_by,
+                                             [&, towards = to_light](const Hit& other) {
+                                                 return opacity_at(other, -towards);
+                                             });
+        if (visible != C3f(0.0f))
+            path.radiance += path.throughput * value * visible * light.radiance *
+                             (mis_weight(light.pdf, pdf) / light.pdf);
     }
 
     const float pick = sampler.get1D(dimension(Draw::Lobe, bounce));

@@ -43,10 +43,13 @@ private:
 
     Imath::C3f trace(PathState, const Sampler&, Workspace&) const;
     bool bounce(PathState&, const Hit&, const Sampler&, int bounce, Workspace&) const;
+    const Bound& bound_at(const Hit&) const;
+    Imath::C3f opacity_at(const Hit&, const Imath::V3f& view) const;
     void release();
 
     World _world;
     std::vector<Bound> _materials;
+    bool _some_let_by = false;
 };
 
 }  // namespace regain::tools::preview

@@ -24,6 +24,10 @@
 /// directional albedos of all; it returns the albedo of the whole. lobe_count() and so on below
 /// ask a material of one closure the same.
 ///
+/// A material that is not there everywhere answers `presence() const`, in [0, 1]: the share of the
+/// surface that is. It is no part of any closure and changes nothing of what they scatter; light
+/// goes by the rest unchanged. presence_of() below asks any material.
+///
 /// A closure is asked for
 ///
 ///     distribution()    its microfacets, where it has some
@@ -173,6 +177,28 @@ Color3<Real> lobe_weights([[maybe_unused]] const Material& material, const Color
         weight[0] = Color3<Real>(Real(1));
         return albedo[0];
     }
+}
+
+namespace detail {
+
+template <class Material, class = void>
+struct HasPresence : std::false_type
+{};
+template <class Material>
+struct HasPresence<Material, std::void_t<decltype(std::declval<const Material&>().presence())>>
+    : std::true_type
+{};
+
+}  // namespace detail
+
+/// Clamped; 1 of a material that says nothing, or no number.
+template <class Real, class Material>
+Real presence_of([[maybe_unused]] const Material& material)
+{
+    if constexpr (detail::HasPresence<Material>::value)
+        return detail::sanitised(static_cast<Real>(material.presence()), 0, 1, 1);
+    else
+        return Real(1);
 }
 
 /// Index on the -z side over index on the +z side; 1 where one medium is on both.

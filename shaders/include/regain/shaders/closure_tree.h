@@ -57,6 +57,11 @@ public:
     /// combinations in one another than `deepest`, naming both numbers.
     REGAIN_SHADERS_API void set_root(Node);
 
+    /// The share of the surface that is there, in [0, 1], clamped; NaN becomes 1. It weighs no
+    /// closure.
+    void set_presence(double presence) { _presence = detail::sanitised(presence, 0, 1, 1); }
+    double presence() const { return _presence; }
+
     /// Of all closures: see MicrofacetMaterial. Where there are several, each has to know its
     /// albedo.
     REGAIN_SHADERS_API void bind_tables(bool for_albedo = false);
@@ -152,6 +157,7 @@ private:
     std::vector<NodeData> _nodes;
     std::vector<Lobe> _lobes;
     std::vector<Step> _steps;
+    double _presence = 1;
 };
 
 }  // namespace shaders

@@ -262,6 +262,10 @@ material_callbacks<Real> closure_callbacks()
     c.create_module_data = [](const void* object) { return const_cast<void*>(object); };
     c.destroy_module_data = [](const void*, void*) {};
     c.create_lobes = &detail::create_lobes<Material, Real>;
+    if constexpr (regain::detail::HasPresence<Material>::value)
+        c.opacity = [](const void* data, const shading_point<Real>&) {
+            return color<Real>(presence_of<Real>(*static_cast<const Material*>(data)));
+        };
     return c;
 }
 

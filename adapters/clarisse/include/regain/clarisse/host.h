@@ -28,6 +28,9 @@
 ///     the material's data is const and shared by all threads.
 ///  P8 `evaluate` gets no random numbers. A lobe that can only estimate its value answers the same
 ///     estimate for the same two directions; it is right on average over neighbouring directions.
+///  P9 Opacity is where the surface is, and multiplies nothing of the lobes: light goes by the rest
+///     of it unchanged. What lets light straight on is a `straight` lobe, and is not told a second
+///     time as opacity.
 
 #pragma once
 
@@ -197,6 +200,9 @@ struct material_callbacks
     /// Once per shading point. False when the scratchpad is full; the list then holds what fits.
     bool (*create_lobes)(const void* data, const shading_point<Real>&, scratchpad&,
                          lobe_list<Real>&) = nullptr;
+
+    /// In [0, 1] per channel, also for rays that ask for nothing else; null: 1 everywhere.
+    color<Real> (*opacity)(const void* data, const shading_point<Real>&) = nullptr;
 };
 
 }  // namespace clarisse

@@ -20,6 +20,7 @@
 #pragma once
 
 #include <regain/renderman/surface_bxdf.h>
+#include <regain/renderman/uniform_presence.h>
 
 REGAIN_NAMESPACE_BEGIN
 namespace renderman {
@@ -40,6 +41,17 @@ public:
                     return make_batch(ctx, closure, lobe_name(material, k));
                 });
             });
+    }
+
+    bool computesPresence(const void* instanceData) const override
+    {
+        return instanceData && presence_of<float>(*static_cast<const Material*>(instanceData)) < 1;
+    }
+    Opacity* beginOpacity(const ShadingContext* ctx, ShadeMode, void*, void* instanceData) override
+    {
+        if (!computesPresence(instanceData)) return nullptr;
+        return UniformPresence::create(
+            ctx, presence_of<float>(*static_cast<const Material*>(instanceData)));
     }
 
 private:

@@ -235,7 +235,8 @@ protected:
 };
 
 /// Where a surface is, and how much light it lets by [RixOpacity]. It changes nothing of what
-/// scatters: lobe weights are those of the surface where it is.
+/// scatters: lobe weights are those of the surface where it is. What lets light straight on is a
+/// closure and a continuation lobe, and is not told here a second time.
 class Opacity
 {
 public:
@@ -258,6 +259,9 @@ public:
     virtual Bxdf* beginScatter(const ShadingContext* ctx, const LobeSet& lobesWanted, ShadeMode,
                                void* parentData, void* instanceData) = 0;
     virtual void endScatter(Bxdf*) {}
+
+    /// Whether beginOpacity is worth asking [GetInstanceHints, k_ComputesPresence].
+    virtual bool computesPresence(const void* /*instanceData*/) const { return false; }
 
     /// Null where the surface is everywhere, or the arena is spent.
     virtual Opacity* beginOpacity(const ShadingContext*, ShadeMode, void* /*parentData*/,

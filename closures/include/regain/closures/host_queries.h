@@ -166,12 +166,26 @@ decltype(auto) with_lobe(const Material& material, [[maybe_unused]] int k, Real 
         return with_closure(material, strength, visit);
 }
 
+/// Weights as they are used: in [0, 1e6] per channel, and 0 where a material's own is no number, so
+/// that whatever comes of a texture leaves a closure out and not a point.
 template <class Material, class Real>
 Color3<Real> lobe_weights([[maybe_unused]] const Material& material, const Color3<Real>* albedo,
                           Color3<Real>* weight)
 {
+    const auto clean = [](const Color3<Real>& c) {
+        return detail::per_channel(c, [](Real v) { return detail::sanitised(v, 0, 1e6, 0); });
+    };
     if constexpr (detail::HasLobes<Material>::value)
-        return material.lobe_weights(albedo, weight);
+    {
+        Color3<Real> whole(Real(0));
+        material.lobe_weights(albedo, weight);
+        for (int k = 0; k < material.lobes(); ++k)
+        {
+            weight[k] = clean(weight[k]);
+            whole += weight[k] * albedo[k];
+        }
+        return whole;
+    }
     else
     {
         weight[0] = Color3<Real>(Real(1));

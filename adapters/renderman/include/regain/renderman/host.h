@@ -165,7 +165,7 @@ private:
 };
 
 /// One stratified stream per point [RixRNG]. A draw does not advance the stream: the same domain
-/// drawn twice gives the same numbers.
+/// drawn twice gives the same numbers, and one number may be the first of a pair.
 struct Rng
 {
     virtual void draw1D(float* xi) = 0;                  ///< fills numPts values in [0, 1)

@@ -70,6 +70,7 @@ public:
                         Color3* compTrans) override
     {
         Slots slots(weights);
+        open_slots(ctx->numPts, lobesWanted, slots);
         draw(rng);
         if (_count > 1)
         {
@@ -83,7 +84,7 @@ public:
             fwdPdf[i] = 0;
             if (revPdf) revPdf[i] = 0;
             if (compTrans) compTrans[i] = Color3(0.0f);
-            _own[i] = pick(i, lobesWanted[i] & _wanted, slots);
+            _own[i] = pick(i, lobesWanted[i] & _usable);
         }
         for (int k = 0; k < _count; ++k)
         {
@@ -101,7 +102,7 @@ public:
             const SampledDirection& s = _samples[i];
             const Lobe lobe = _lobes[k]->lobe(!s.transmitted, s.discrete);
             // A lobe that is not wanted has no weight, so it is not sampled either.
-            if (!(lobesWanted[i] & _wanted).has(lobe) || !slots.of(k, lobe)) continue;
+            if (!(lobesWanted[i] & _usable).has(lobe)) continue;
             sampled[i] = lobe;
             sampled[i].valid = true;
             Ln[i] = s.L;
@@ -112,7 +113,7 @@ public:
         {
             const int i = _pairs[j].at, k = _own[i];
             const SampledDirection& s = _samples[i];
-            const float q = probability(i, k, lobesWanted[i] & _wanted);
+            const float q = probability(i, k, lobesWanted[i] & _usable);
             slots.of(k, sampled[i])[i] += weight(j, k) * s.value;
             fwdPdf[i] = q * s.pdf;
             if (revPdf) revPdf[i] = s.discrete ? back_probability(j, k, lobesWanted[i]) * s.pdf : 0;
@@ -127,6 +128,7 @@ public:
     {
         draw_for_eval(rng);
         Slots slots(weights);
+        open_slots(ctx->numPts, lobesWanted, slots);
         evaluate(0, ctx->numPts, lobesWanted, 1, -1, evaluated, Ln, slots, fwdPdf, revPdf);
     }
 
@@ -136,6 +138,7 @@ public:
     {
         draw_for_eval(rng);
         Slots slots(weights);
+        open_slots(1, &lobesWanted, slots);
         // The generator has one set of numbers per point: further directions get what follows from
         // it.
         RandomStream<float> more(_u[index]);
@@ -182,7 +185,7 @@ private:
         Vec3 L;
     };
 
-    /// The weights of one call, opened when a closure first needs them.
+    /// The weights of one call.
     class Slots
     {
     public:
@@ -289,7 +292,7 @@ private:
     float back_probability(int j, int k, const LobeSet& wanted) const
     {
         if (_count == 1) return 1;
-        return share_of(_back_q + j, _room, k, wanted & _wanted);
+        return share_of(_back_q + j, _room, k, wanted & _usable);
     }
     float share_of(const float* q, int stride, int k, const LobeSet& wanted) const
     {
@@ -299,15 +302,15 @@ private:
         return total > 0 ? q[k * stride] / total : 0;
     }
 
-    // The closure that proposes a direction for point i, or -1. One that has no slot is out.
-    int pick(int i, LobeSet wanted, Slots& slots)
+    // The closure that proposes a direction for point i, or -1.
+    int pick(int i, const LobeSet& wanted) const
     {
         int candidates[most_lobes], count = 0;
         float total = 0;
         for (int k = 0; k < _count; ++k)
         {
             const float q = _q[k * ctx->numPts + i];
-            if (!(q > 0) || !enabled(k, wanted) || !has_slot(k, wanted, slots)) continue;
+            if (!(q > 0) || !enabled(k, wanted)) continue;
             candidates[count++] = k;
             total += q;
         }
@@ -319,16 +322,21 @@ private:
         return candidates[c];
     }
 
-    bool has_slot(int k, const LobeSet& wanted, Slots& slots)
+    // What a call can use are the lobes that some point wants and that the host has a slot for. A
+    // closure that could not tell its weight must have no share of the pdf either, by any call.
+    void open_slots(int n, const LobeSet* lobesWanted, Slots& slots)
     {
-        bool any = false;
-        for (const bool reflect : {true, false})
-            for (const bool discrete : {false, true})
-            {
-                const Lobe lobe = _lobes[k]->lobe(reflect, discrete);
-                if ((_lobes[k]->lobes() & wanted).has(lobe) && slots.of(k, lobe)) any = true;
-            }
-        return any;
+        LobeSet some;
+        for (int i = 0; i < n; ++i) some |= lobesWanted[i] & _wanted;
+        _usable.clear();
+        for (int k = 0; k < _count; ++k)
+            for (const bool reflect : {true, false})
+                for (const bool discrete : {false, true})
+                {
+                    const Lobe lobe = _lobes[k]->lobe(reflect, discrete);
+                    if ((_lobes[k]->lobes() & some).has(lobe) && slots.of(k, lobe))
+                        _usable |= LobeSet(lobe);
+                }
     }
 
     // What closure k of pair j is multiplied by.
@@ -380,7 +388,7 @@ private:
         {
             const Pair& p = _pairs[j];
             if (sampled && (_own[p.at] == k || sampled[p.at].discrete)) continue;
-            const LobeSet wanted = lobesWanted[p.out * stride] & _wanted;
+            const LobeSet wanted = lobesWanted[p.out * stride] & _usable;
             const Lobe asked = _lobes[k]->lobe(_lobes[k]->reflects(p.at, p.L), false);
             if (!(_lobes[k]->lobes() & wanted).has(asked)) continue;
             if (!(_q[k * ctx->numPts + p.at] > 0)) continue;
@@ -398,10 +406,8 @@ private:
             const int j = _out[s];
             const Pair& p = _pairs[j];
             const Lobe asked = _lobes[k]->lobe(_lobes[k]->reflects(p.at, p.L), false);
-            Color3* slot = slots.of(k, asked);
-            if (!slot) continue;
-            slot[p.out] += weight(j, k) * _value[s];
-            fwdPdf[p.out] += probability(p.at, k, lobesWanted[p.out * stride] & _wanted) * _pdf[s];
+            slots.of(k, asked)[p.out] += weight(j, k) * _value[s];
+            fwdPdf[p.out] += probability(p.at, k, lobesWanted[p.out * stride] & _usable) * _pdf[s];
             if (evaluated) evaluated[p.out] |= LobeSet(asked);
         }
     }
@@ -413,7 +419,7 @@ private:
         {
             const Pair& p = _pairs[j];
             if (sampled && sampled[p.at].discrete) continue;
-            const LobeSet wanted = lobesWanted[p.out * stride] & _wanted;
+            const LobeSet wanted = lobesWanted[p.out * stride] & _usable;
             for (int k = 0; k < _count; ++k)
             {
                 const float back = _back_pdf[k * _room + j];
@@ -428,14 +434,13 @@ private:
     void evaluate(int from, int to, const LobeSet* lobesWanted, int stride, int index,
                   LobeSet* evaluated, const Vec3* Ln, Slots& slots, float* fwdPdf, float* revPdf)
     {
-        const LobeSet mine = aggregateLobes();
         int pairs = 0;
         for (int j = from; j < to; ++j)
         {
             evaluated[j].clear();
             fwdPdf[j] = 0;
             if (revPdf) revPdf[j] = 0;
-            if ((mine & lobesWanted[j * stride]).any())
+            if ((_usable & lobesWanted[j * stride]).any())
                 _pairs[pairs++] = {index < 0 ? j : index, j, Ln[j]};
         }
         if (look_back_needed(revPdf)) look_back(pairs);
@@ -461,7 +466,12 @@ private:
     void draw(Rng* rng)
     {
         rng->draw2D(_pairs_2d);
-        if (_three) rng->draw1D(_singles);
+        if (_three)
+        {
+            constexpr std::uint32_t domain = 0x54485231;  // not the first of the pair again
+            rng->newDomain(domain);
+            rng->draw1D(_singles);
+        }
         for (int i = 0; i < ctx->numPts; ++i)
             _u[i] = Vec3(_pairs_2d[i].x, _pairs_2d[i].y, _three ? _singles[i] : 0.0f);
     }
@@ -473,7 +483,7 @@ private:
         draw(rng);
     }
 
-    LobeSet _wanted;
+    LobeSet _wanted, _usable;
     const void* _material;
     LobeWeightsOf _weights;
     LobeBatch* _lobes[most_lobes];

@@ -237,6 +237,10 @@ TEST(HostTrapsInClarisse, trap_10_sidedness_turns_both_normals_and_indices_go_by
     };
     EXPECT_NEAR(reflected(V) / expected(V.dot(N)), 1, 1e-3);
     EXPECT_NEAR(reflected(-V) / expected(-V.dot(N)), 1, 1e-3);
+    // From above the surface and below the bump it is neither outside nor inside.
+    EXPECT_EQ(reflected(direction<float>(0.1, M_PI)), 0);
+    EXPECT_EQ(glass.evaluate(direction<float>(-0.9)).pdf, 0);
+    EXPECT_EQ(glass.albedo(), Color(0.0f));
     glass.point.sides = sidedness::inverted;
     EXPECT_NEAR(reflected(-V) / expected(V.dot(N)), 1, 1e-3);
     // What only reflects is there from one side, the other, or both.

@@ -290,6 +290,11 @@ TEST(HostTrapsInRenderMan, trap_10_indices_are_exchanged_by_the_side_of_the_true
     EXPECT_NEAR(outside / expected(mu), 1, 1e-3);
     EXPECT_NEAR(inside / expected(-mu), 1, 1e-3);
     EXPECT_GT(std::abs(inside / outside - 1), 0.1);
+    // From above the surface and below the bump it is neither outside nor inside.
+    const Vec3 between = direction<float>(0.1, M_PI);
+    EXPECT_EQ(reflected(between, N, up), 0);
+    EXPECT_EQ(glass.evaluate(direction<float>(-0.9)).fwd[0], 0);
+    EXPECT_EQ(glass.albedo(), Color3(0.0f));
     // A surface that only reflects is turned, bump and all.
     GridCalls<HalfAndHalf> half(HalfAndHalf{});
     const Vec3 L = direction<float>(0.6, 3);
@@ -498,6 +503,17 @@ struct StrictRng final : Rng
     std::uint32_t domain = 1;
 };
 
+// Two panes of which each lets half of its light through.
+struct TwoPanes : HalfAndHalf
+{
+    template <class Real, class Visit>
+    decltype(auto) with_lobe(int, Real, const Visit& visit) const
+    {
+        return visit(LambertInterface<Real>(Real(1.5), Real(0.5)));
+    }
+    const char* lobe_name(int k) const { return k == 0 ? "glass" : "coat"; }
+};
+
 TEST(HostTrapsInRenderMan, trap_15_what_has_a_weight_has_a_chance)
 {
     constexpr int n = 40000;
@@ -526,17 +542,23 @@ TEST(HostTrapsInRenderMan, trap_16_numbers_are_drawn_from_domains_of_their_own)
 {
     constexpr int n = 40000;
     StrictRng rng(n);
-    // The choice of a closure: directions are those of both, not of what a choice leaves.
-    GridCalls<Many> many({2}, n);
-    const GridAnswers a = many.at(direction<float>(0.6)).generate(everything, &rng);
-    double height = 0, forward = 0;
-    for (const Vec3& L : a.L)
+    // The choice of a closure has nothing to do with what that makes of its numbers.
+    GridCalls<TwoPanes> panes({}, n);
+    const GridAnswers a = panes.at(direction<float>(0.6)).generate(everything, &rng);
+    double picked[2] = {0, 0}, transmitted[2] = {0, 0}, height[2] = {0, 0};
+    for (int i = 0; i < n; ++i)
     {
-        height += double(L.z) / n;
-        forward += double(L.x) / n;
+        const int k = a.sampled[i].id == kClearcoatSlot;
+        ++picked[k];
+        transmitted[k] += a.L[i].z < 0;
+        height[k] += double(std::abs(a.L[i].z));
     }
-    EXPECT_NEAR(height, 2.0 / 3, 0.01);
-    EXPECT_NEAR(forward, 0, 0.01);
+    for (const int k : {0, 1})
+    {
+        EXPECT_NEAR(picked[k] / n, 0.5, 0.02);
+        EXPECT_NEAR(transmitted[k] / picked[k], 0.5, 0.02);
+        EXPECT_NEAR(height[k] / picked[k], 2.0 / 3, 0.01);
+    }
     // The third number of a closure: the event has nothing to do with the direction.
     const ClosureMaterial interface {
         LambertInterface<float>(1.5f, 0.5f)

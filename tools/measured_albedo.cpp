@@ -176,7 +176,8 @@ namespace {
 // The added lobe of a dielectric goes where no facet refracts to, so the facets do not cover it.
 bool adds_to_dielectric(const ClosureSpec& spec)
 {
-    return spec.lobe == Lobe::dielectric && std::holds_alternative<KullaContyForm>(spec.method);
+    return spec.lobe == Lobe::dielectric && (std::holds_alternative<KullaContyForm>(spec.method) ||
+                                             std::holds_alternative<shaders::Tail>(spec.method));
 }
 
 }  // namespace
@@ -191,9 +192,10 @@ AlbedoMethod default_albedo_method(const ClosureSpec& spec)
 void require_possible(const ClosureSpec& spec, const AlbedoSettings& settings)
 {
     if (settings.how == AlbedoMethod::quadrature && adds_to_dielectric(spec))
-        throw BadInput(
-            "how 'quadrature' does not reach all directions of the lobe that kulla-conty "
-            "adds to a dielectric; accepted: monte-carlo, table");
+        throw BadInput(fmt::format(
+            "how 'quadrature' does not reach all directions of the lobe that {} adds to a "
+            "dielectric; accepted: monte-carlo, table",
+            shaders::name(spec.method)));
     if (settings.how == AlbedoMethod::quadrature && spec.combination)
         throw BadInput(
             fmt::format("how 'quadrature' is made for one lobe, and {} combines several; accepted: "

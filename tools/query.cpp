@@ -63,7 +63,8 @@ fields of a line
   n, seed     sample: n samples (up to 1000000) from the seed (default 0)
   u; n, seed  eval of walks, an estimate: [u1, u2, u3], or the mean of n (default 1024)
   how         albedo: quadrature (default), table, monte-carlo (with n, default 65536, and seed;
-              the default of walk, and of kulla-conty on a dielectric)
+              the default of walk, of kulla-conty and tail on a dielectric, and of what is
+              combined)
   order       albedo of walk: light of so many bounces alone
   mu          fresnel: in [0, 1]; below 0 from inside a dielectric
   wm          ndf: the microfacet normal, beside wo

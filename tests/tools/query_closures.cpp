@@ -216,6 +216,19 @@ TEST(query_closures, albedo_by_quadrature_is_the_mean_of_samples)
     }
 }
 
+// The added lobe goes where no facet refracts to, which facets' quadrature does not see.
+TEST(query_closures, albedo_of_glass_with_a_tail_has_all_its_light)
+{
+    for (const double mu : {0.5, -0.9})
+    {
+        const json q = with(glass, {{"op", "albedo"}, {"mu", mu}, {"method", "tail"}});
+        const json a = answer(q);
+        EXPECT_NEAR(red(a["reflect"]) + red(a["transmit"]), 1, 5 * double(a["stderr"]) + 3e-3);
+        const std::string refused = ask(with(q, {{"how", "quadrature"}}))["error"];
+        EXPECT_NE(refused.find("tail"), std::string::npos) << refused;
+    }
+}
+
 TEST(query_closures, kulla_conty_keeps_all_energy)
 {
     const json q = with(white, {{"op", "albedo"}, {"mu", 0.4}, {"method", "kulla-conty"}});

@@ -4,7 +4,7 @@
 // The diffuse closures and the cloths: formulas, albedo, sampling, hostile inputs.
 
 #include "../support/closures.h"
-#include "../support/hostile.h"
+#include "../support/hostile_run.h"
 #include "../support/properties.h"
 
 #include <regain/closures/burley_diffuse.h>
@@ -249,43 +249,28 @@ TEST(ClosureSet, a_vector_of_floats_answers_as_a_float_does)
     });
 }
 
-template <class Closure, class Real>
-bool sane_answers(const Closure& closure, Hostile<Real>& hostile)
-{
-    const Vec3<Real> wo = hostile.any_direction(), wi = hostile.any_direction();
-    const auto prepared = closure.prepare(wo);
-    const Real x = hostile.random_number(), y = hostile.random_number();
-    const Sample<Real> s = prepared.sample(Vec3<Real>(x, y, hostile.random_number()));
-    const Real pdf = prepared.pdf(wi);
-    const auto albedo = prepared.albedo();
-    return sane(prepared.eval(wi)) && sane(s.weight) && sane(albedo.reflect) &&
-           sane(albedo.transmit) && std::isfinite(pdf) && pdf >= 0 && std::isfinite(s.pdf) &&
-           s.pdf >= 0 && (!s.valid || s.pdf > 0) && std::abs(s.wi.length() - 1) < 2e-6;
-}
-
 template <class Real>
 void run_hostile(long calls)
 {
-    Hostile<Real> hostile(sizeof(Real) + 190);
-    long failures = 0;
-    const Trapped trapped;
-    for (long i = 0; i < calls; ++i)
-    {
-        const Color3<Real> color = hostile.color();
-        const Real r = hostile.parameter();
-        const auto ask = [&](const auto& closure, const char* name) {
-            if (!sane_answers(closure, hostile) && failures++ < 5)
-                ADD_FAILURE() << name << " at roughness " << r << ", colour " << color;
-        };
-        ask(OrenNayarDiffuse<Real>(color, r), "eon");
-        ask(OrenNayarDiffuse<Real>(color, r, false), "oren-nayar");
-        ask(BurleyDiffuse<Real>(color, r), "burley");
-        ask(ContyKullaSheen<Real>(color, r), "conty-kulla");
-        ask(ZeltnerSheen<Real>(color, r), "zeltner");
-        ask(Translucent<Real>(color), "translucent");
-        ask(Transparent<Real>(color), "transparent");
-    }
-    EXPECT_EQ(failures, 0);
+    expect_sane_answers<Real>(190, calls, [](auto& hostile, long) {
+        return OrenNayarDiffuse<Real>(hostile.color(), hostile.parameter());
+    });
+    expect_sane_answers<Real>(191, calls, [](auto& hostile, long) {
+        return OrenNayarDiffuse<Real>(hostile.color(), hostile.parameter(), false);
+    });
+    expect_sane_answers<Real>(192, calls, [](auto& hostile, long) {
+        return BurleyDiffuse<Real>(hostile.color(), hostile.parameter());
+    });
+    expect_sane_answers<Real>(193, calls, [](auto& hostile, long) {
+        return ContyKullaSheen<Real>(hostile.color(), hostile.parameter());
+    });
+    expect_sane_answers<Real>(194, calls, [](auto& hostile, long) {
+        return ZeltnerSheen<Real>(hostile.color(), hostile.parameter());
+    });
+    expect_sane_answers<Real>(
+        195, calls, [](auto& hostile, long) { return Translucent<Real>(hostile.color()); });
+    expect_sane_answers<Real>(
+        196, calls, [](auto& hostile, long) { return Transparent<Real>(hostile.color()); });
 }
 
 TEST(ClosureSet, stays_finite_whatever_comes_in)

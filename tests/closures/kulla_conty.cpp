@@ -4,7 +4,7 @@
 // Kulla and Conty's added lobe: energy, reciprocity, sampling.
 
 #include "../support/closures.h"
-#include "../support/hostile.h"
+#include "../support/hostile_run.h"
 #include "../support/properties.h"
 #include "../support/reflection_integral.h"
 
@@ -396,30 +396,12 @@ TEST(KullaConty, a_vector_of_floats_answers_as_a_float_does)
 template <class Real>
 void run_hostile(long calls)
 {
-    Hostile<Real> hostile(sizeof(Real) + 70);
-    long failures = 0;
-    const Trapped trapped;
-    for (long i = 0; i < calls; ++i)
-    {
+    expect_sane_answers<Real>(70, calls, [](auto& hostile, [[maybe_unused]] long i) {
         const GGX<Real> ggx(hostile.parameter(), hostile.parameter());
-        const auto closure = kulla_conty(
+        return kulla_conty(
             GeneralizedSchlick<Real>{ggx, SchlickFresnel<Real>(hostile.color(), hostile.color())},
             all_kulla_conty_forms[i % 2], luts::ggx_tables(), hostile.parameter());
-        const Vec3<Real> wo = hostile.any_direction(), wi = hostile.any_direction();
-        const auto prepared = closure.prepare(wo);
-        const Real pdf = prepared.pdf(wi);
-        const Real x = hostile.random_number(), y = hostile.random_number();
-        const Sample<Real> s = prepared.sample(Vec3<Real>(x, y, hostile.random_number()));
-        const bool good = sane(prepared.eval(wi)) && sane(s.weight) &&
-                          sane(prepared.albedo().reflect) && std::isfinite(pdf) && pdf >= 0 &&
-                          std::isfinite(s.pdf) && s.pdf >= 0 && (!s.valid || s.pdf > 0) &&
-                          std::abs(s.wi.length() - 1) < 2e-6;
-        if (!good && failures++ < 5)
-            ADD_FAILURE() << "wo " << wo << ", wi " << wi << ": eval " << prepared.eval(wi)
-                          << ", pdf " << pdf << ", sample " << s.wi << " " << s.weight << " "
-                          << s.pdf;
-    }
-    EXPECT_EQ(failures, 0);
+    });
 }
 
 TEST(KullaConty, stays_finite_whatever_comes_in)

@@ -4,7 +4,7 @@
 // The combinators: layer, mix, multiply, and what is under what in a furnace.
 
 #include "../support/closures.h"
-#include "../support/hostile.h"
+#include "../support/hostile_run.h"
 #include "../support/properties.h"
 
 #include <regain/closures/dielectric_gain.h>
@@ -194,30 +194,11 @@ TEST(Layers, paper_lets_light_through_on_either_side)
 template <class Real>
 void run_hostile(long calls)
 {
-    Hostile<Real> hostile(sizeof(Real) + 290);
-    long failures = 0;
-    const Trapped trapped;
-    for (long i = 0; i < calls; ++i)
-    {
+    expect_sane_answers<Real>(290, calls, [](auto& hostile, [[maybe_unused]] long i) {
         const OrenNayarDiffuse<Real> base(hostile.color(), hostile.parameter());
         const ZeltnerSheen<Real> top(hostile.color(), hostile.parameter());
-        const auto closure =
-            mix(layer(top, multiply(base, hostile.color())), base, hostile.parameter());
-        const Vec3<Real> wo = hostile.any_direction(), wi = hostile.any_direction();
-        const auto prepared = closure.prepare(wo);
-        const Real x = hostile.random_number(), y = hostile.random_number();
-        const Sample<Real> s = prepared.sample(Vec3<Real>(x, y, hostile.random_number()));
-        const Real pdf = prepared.pdf(wi);
-        const bool good = sane(prepared.eval(wi)) && sane(s.weight) &&
-                          sane(prepared.albedo().reflect) && std::isfinite(pdf) && pdf >= 0 &&
-                          std::isfinite(s.pdf) && s.pdf >= 0 && (!s.valid || s.pdf > 0) &&
-                          std::abs(s.wi.length() - 1) < 2e-6;
-        if (!good && failures++ < 5)
-            ADD_FAILURE() << "wo " << wo << ", wi " << wi << ": eval " << prepared.eval(wi)
-                          << ", pdf " << pdf << ", sample " << s.wi << " " << s.weight << " "
-                          << s.pdf;
-    }
-    EXPECT_EQ(failures, 0);
+        return mix(layer(top, multiply(base, hostile.color())), base, hostile.parameter());
+    });
 }
 
 TEST(Layers, stay_finite_whatever_comes_in)

@@ -54,7 +54,8 @@ Estimate traced(const Near& near, const Far& far, const First& first, const Seco
         double mean = 0;
         for (int i = 0; i < samples; ++i)
         {
-            const auto start = direction<double>(std::sqrt(1 - random.unit()), 2 * pi * random.unit());
+            const auto start =
+                direction<double>(std::sqrt(1 - random.unit()), 2 * pi * random.unit());
             const auto numbers = [&] {
                 const double x = random.unit(), y = random.unit();
                 return Vec3<double>(x, y, random.unit());

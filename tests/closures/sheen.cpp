@@ -4,7 +4,7 @@
 // Burley's sheen, and the Lambertian base under it.
 
 #include "../support/closures.h"
-#include "../support/hostile.h"
+#include "../support/hostile_run.h"
 #include "../support/properties.h"
 
 #include <regain/closures/diffuse.h>
@@ -164,29 +164,13 @@ TEST(Sheen, a_vector_of_floats_answers_as_a_float_does)
 template <class Real>
 void run_hostile(long calls)
 {
-    Hostile<Real> hostile(sizeof(Real) + 90);
-    long failures = 0;
-    const Trapped trapped;
-    for (long i = 0; i < calls; ++i)
-    {
-        const auto closure =
-            burley_sheen(Diffuse<Real>(hostile.color()), hostile.parameter(),
-                         sheen_color(hostile.color(), hostile.number(), hostile.parameter()));
-        const Vec3<Real> wo = hostile.any_direction(), wi = hostile.any_direction();
-        const auto prepared = closure.prepare(wo);
-        const Real x = hostile.random_number(), y = hostile.random_number();
-        const Sample<Real> s = prepared.sample(Vec3<Real>(x, y, hostile.random_number()));
-        const Real pdf = prepared.pdf(wi);
-        const bool good = sane(prepared.eval(wi)) && sane(s.weight) &&
-                          sane(prepared.albedo().reflect) && std::isfinite(pdf) && pdf >= 0 &&
-                          std::isfinite(s.pdf) && s.pdf >= 0 && (!s.valid || s.pdf > 0) &&
-                          std::abs(s.wi.length() - 1) < 2e-6;
-        if (!good && failures++ < 5)
-            ADD_FAILURE() << "wo " << wo << ", wi " << wi << ": eval " << prepared.eval(wi)
-                          << ", pdf " << pdf << ", sample " << s.wi << " " << s.weight << " "
-                          << s.pdf;
-    }
-    EXPECT_EQ(failures, 0);
+    expect_sane_answers<Real>(90, calls, [](auto& hostile, [[maybe_unused]] long i) {
+        const Diffuse<Real> base(hostile.color());
+        const Real weight = hostile.parameter();
+        const Color3<Real> color = hostile.color();
+        return burley_sheen(base, weight,
+                            sheen_color(color, hostile.number(), hostile.parameter()));
+    });
 }
 
 TEST(Sheen, stays_finite_whatever_comes_in)

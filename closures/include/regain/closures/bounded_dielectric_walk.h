@@ -21,11 +21,11 @@
 /// index behind the first facet. It enters the weights as it is, and at least an eighth of the
 /// walks start from either end. Depths are drawn as soon as light crosses: microsurface_walk.h.
 ///
-/// pdf. The first bounce exactly, and for the rest LaterDielectricDensity, scaled by what the tables
-/// say is left; without them, for two alphas, and where transmission is a delta lobe, that of
-/// dielectric_walk.h. The L1 distance to the density is at most 0.09 in the mean over wo, for GGX
-/// and Beckmann of alpha up to 1 and index 1.1 to 3, from either side (docs/methods.md). The pdf
-/// integrates to 1 as well as the tables know the sum of the beta form: 3e-3.
+/// pdf. The first bounce exactly, and for the rest LaterDielectricDensity, scaled by what the
+/// tables say is left; without them, for two alphas, and where transmission is a delta lobe, that
+/// of dielectric_walk.h. The L1 distance to the density is at most 0.09 in the mean over wo, for
+/// GGX and Beckmann of alpha up to 1 and index 1.1 to 3, from either side (docs/methods.md). The
+/// pdf integrates to 1 as well as the tables know the sum of the beta form: 3e-3.
 
 #pragma once
 

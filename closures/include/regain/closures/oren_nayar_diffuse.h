@@ -24,8 +24,8 @@
 ///   f = rho / pi (A + B max(s, 0) / max(cos_o, cos_i))
 ///   A = 1 - r^2 / (2 (r^2 + 0.33)),    B = 0.45 r^2 / (r^2 + 0.09)
 ///
-/// which loses up to 0.38 of a white one's light, and where r is about 0.2, at grazing angles, makes
-/// 0.015. Its albedo is rho (A + B / pi (G + 2/3 sin)).
+/// which loses up to 0.38 of a white one's light, and where r is about 0.2, at grazing angles,
+/// makes 0.015. Its albedo is rho (A + B / pi (G + 2/3 sin)).
 ///
 /// Both are sampled as the paper does (its Listing 2): a cosine lobe, clipped at the horizon of
 /// what it becomes, through the linear map that fits EON best (numbers: that listing), and evenly

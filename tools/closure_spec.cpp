@@ -37,6 +37,7 @@ constexpr std::array<Names, 2> shadowings{"correlated", "beta"};
 // What the closures accept without clamping.
 constexpr Range gtr_range{gtr_min_gamma, gtr_max_gamma}, std_range{std_min_gamma, std_max_gamma};
 constexpr Range tint_range{0, 100}, weight_range{0, 1e6};
+constexpr Range film_range{0, 1e6}, film_index_range{1, 10};
 
 shaders::Compensation read_method(Names given)
 {
@@ -117,11 +118,20 @@ void read_reflection(Fields& fields, const ClosureSpec& spec)
         fields.reject(field, "it belongs to the closure dielectric");
 }
 
+// The films of MaterialX's closures are read, so that what a document says of them need not be
+// taken out of it.
+void read_thin_film(Fields& fields, ClosureSpec& spec)
+{
+    spec.thin_film = fields.number("thinfilm_thickness", film_range).value_or(0);
+    fields.number("thinfilm_ior", film_index_range);
+}
+
 // Closures without microfacets.
 void read_plain(Fields& fields, ClosureSpec& spec)
 {
     const std::string why = fmt::format("the closure {} has no microfacets", name(spec.lobe));
-    for (const char* field : {"distribution", "gamma", "alpha", "fresnel"})
+    for (const char* field :
+         {"distribution", "gamma", "alpha", "fresnel", "thinfilm_thickness", "thinfilm_ior"})
         fields.reject(field, why.c_str());
     if (fields.text("scatter_mode"))
         throw BadInput("'scatter_mode' belongs to the closure dielectric");
@@ -192,7 +202,8 @@ std::shared_ptr<const ClosureSpec> read_part(Fields& fields, const char* field)
 
 void read_combination(Fields& fields, ClosureSpec& spec)
 {
-    for (const char* field : {"distribution", "gamma", "alpha", "fresnel", "method", "strength"})
+    for (const char* field : {"distribution", "gamma", "alpha", "fresnel", "method", "strength",
+                              "thinfilm_thickness", "thinfilm_ior"})
         fields.reject(field, "it belongs to the parts of the combination");
     Combination c;
     c.kind =
@@ -274,6 +285,23 @@ std::size_t ClosureSpec::random_numbers() const
     return two ? 2 : 3;
 }
 
+std::string ClosureSpec::note() const
+{
+    std::string all;
+    const auto add = [&](const std::string& one) {
+        if (!one.empty() && all.find(one) == std::string::npos)
+            all += (all.empty() ? "" : "; ") + one;
+    };
+    if (plain && plain->stand_in()) add(plain->stand_in());
+    if (thin_film > 0)
+        add(fmt::format("no thin film is simulated: thinfilm_thickness {} has no effect",
+                        thin_film));
+    if (combination)
+        for (const auto* part : {&combination->first, &combination->second})
+            if (*part) add((*part)->note());
+    return all;
+}
+
 ClosureSpec read_closure_spec(Fields& fields, bool closure_needed)
 {
     ClosureSpec spec;
@@ -296,6 +324,7 @@ ClosureSpec read_closure_spec(Fields& fields, bool closure_needed)
     else
     {
         read_distribution(fields, spec);
+        read_thin_film(fields, spec);
         spec.fresnel = read_fresnel_of(spec.lobe, fields);
         if (spec.lobe == Lobe::dielectric)
             read_interface(fields, spec);

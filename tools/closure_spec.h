@@ -61,6 +61,7 @@ struct ClosureSpec
     std::optional<Combination> combination;       ///< of layer, mix, add, multiply
     shaders::Compensation method = Method::none;
     double strength = 1;
+    double thin_film = 0;  ///< nanometres of a film that is asked for, and left out
     Precision precision = Precision::single;
     Transport transport = Transport::importance;
 
@@ -78,6 +79,8 @@ struct ClosureSpec
     bool has_microfacets() const { return lobe != Lobe::sheen && !plain && !combination; }
     /// How many numbers sample reads, 2 or 3.
     std::size_t random_numbers() const;
+    /// What is not simulated as asked, of the closure and its parts; empty where nothing is.
+    std::string note() const;
     /// wo may be on either side of the surface.
     bool has_two_sides() const
     {
@@ -96,9 +99,9 @@ bool lobe_has_microfacets(std::string_view lobe);
 /// Reads the fields that describe a closure: closure, distribution, gamma, alpha, fresnel (or the
 /// lobe's parameters by MaterialX's names), scatter_mode, transmission_shadowing, thin_walled,
 /// tint, color, roughness, energy_compensation, mode, weight, method, strength, precision,
-/// transport; or the parts of a combination: top and base of layer, fg, bg and mix of mix, in1 and
-/// in2 of add and multiply. Does not finish the fields. Throws BadInput; also where `closure` is
-/// missing, if it is needed.
+/// transport, thinfilm_thickness and thinfilm_ior, which are noted and have no effect; or the parts
+/// of a combination: top and base of layer, fg, bg and mix of mix, in1 and in2 of add and multiply.
+/// Does not finish the fields. Throws BadInput; also where `closure` is missing, if it is needed.
 ClosureSpec read_closure_spec(Fields& fields, bool closure_needed);
 
 /// Calls `visit` with the distribution at the precision of Real.

@@ -47,6 +47,9 @@ fields of a line
   color       of what has no microfacets; default MaterialX's
   roughness, energy_compensation
               of oren_nayar_diffuse; roughness of burley_diffuse and sheen, too
+  thinfilm_thickness, thinfilm_ior
+              of conductor, generalized_schlick, dielectric: accepted, without effect, which the
+              answer notes
   mode        of sheen: burley (default; takes weight), conty_kulla, zeltner
   method      none (default), normalise, turquin, turquin-eq12, turquin-eq13, turquin-eq14, series,
               directional, balanced, kulla-conty, kulla-conty-series, tail, walk, walk-bounded,
@@ -79,6 +82,7 @@ answers
   gain     {"gain":[r,g,b],"form":"gain(wo)"}; with an added lobe the albedo over that without it
   fresnel  {"value":[r,g,b],"average":[r,g,b]}
   ndf      {"D":..,"lambda":..,"G1":..,"D_visible":..}
+  "note" is added where something is left out or stood in for
 
 Random numbers from a seed are SplitMix64's, two or three for a sample: the upper 24 bits of a draw over
 2^24 in float, the upper 53 over 2^53 in double.

@@ -173,9 +173,7 @@ void write_part(Writer& out, const Query& query)
         with_distribution<Real>(query.closure, [&](const auto& d) { write_ndf(out, d, query); });
 }
 
-}  // namespace
-
-void write_answer(const Query& query, fmt::memory_buffer& out)
+void write_body(const Query& query, fmt::memory_buffer& out)
 {
     Writer writer(out, query.closure.precision);
     if (query.op == Op::fresnel || query.op == Op::ndf)
@@ -205,11 +203,17 @@ void write_answer(const Query& query, fmt::memory_buffer& out)
         case Op::fresnel:
         case Op::ndf: break;
     }
-    if (spec.plain && spec.plain->stand_in())
-    {
-        out.resize(out.size() - 1);
-        in_full(out) << R"(,"note":")" << spec.plain->stand_in() << R"("})";
-    }
+}
+
+}  // namespace
+
+void write_answer(const Query& query, fmt::memory_buffer& out)
+{
+    write_body(query, out);
+    const std::string note = query.op == Op::ndf ? std::string() : query.closure.note();
+    if (note.empty()) return;
+    out.resize(out.size() - 1);
+    in_full(out) << R"(,"note":")" << note << R"("})";
 }
 
 void write_error(std::string_view message, fmt::memory_buffer& out)

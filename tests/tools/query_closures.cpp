@@ -126,6 +126,32 @@ TEST(query_closures, subsurface_says_that_it_is_diffuse)
     EXPECT_NEAR(red(answer(q)["value"]), 0.18 / std::acos(-1.0), 1e-6);
 }
 
+// MaterialX's films are accepted and left out, which the answer names; a film of no thickness is
+// none.
+TEST(query_closures, thin_films_are_left_out_and_named)
+{
+    const json plain{{"op", "albedo"}, {"closure", "conductor"}, {"mu", 0.5}, {"how", "table"}};
+    const json film = with(plain, {{"thinfilm_thickness", 350}, {"thinfilm_ior", 1.4}});
+    const std::string note = answer(film)["note"];
+    EXPECT_NE(note.find("thinfilm_thickness 350"), std::string::npos) << note;
+    EXPECT_EQ(answer(film)["reflect"], answer(plain)["reflect"]);
+    EXPECT_FALSE(answer(with(plain, {{"thinfilm_thickness", 0}})).contains("note"));
+
+    // Of parts, each once.
+    json part = film;
+    for (const char* whole : {"op", "mu", "how"}) part.erase(whole);
+    const json both{{"op", "eval"}, {"closure", "layer"}, {"top", part},
+                    {"base", part}, {"mu", 0.5},          {"wi", {0, 0, 1}}};
+    EXPECT_EQ(answer(both)["note"], note);
+
+    const auto error = [](const json& q) { return ask(q).value("error", ""); };
+    EXPECT_NE(error(with(film, {{"thinfilm_thickness", -1}})).find("thinfilm_thickness"),
+              std::string::npos);
+    EXPECT_NE(error({{"op", "eval"}, {"closure", "burley_diffuse"}, {"thinfilm_ior", 1.4}})
+                  .find("thinfilm_ior"),
+              std::string::npos);
+}
+
 TEST(query_closures, transmitted_radiance_holds_the_ratio_of_indices)
 {
     for (const double mu : {0.8, -0.8})

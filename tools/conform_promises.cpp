@@ -95,9 +95,9 @@ std::optional<double> anisotropic_error(const ClosureSpec& spec, double mu)
         if (shaders::has_gamma(spec.distribution) || spec.interface.mode != ScatterMode::RT ||
             index < 1.1 || index > 3 || wider < 0.05 || mu < 0.03)
             return std::nullopt;
-        return 2.5e-2;
     }
-    if (wider < 0.01 || mu < 0.01) return std::nullopt;
+    else if (wider < 0.01 || mu < 0.01)
+        return std::nullopt;
     if (spec.distribution == DistributionKind::gtr &&
         std::holds_alternative<shaders::Balanced>(spec.method))
         return 5e-2;

@@ -612,6 +612,7 @@ Definition Definition::of(const std::string& name)
             info.axis_z = "wider alpha^(3/4)";
             info.axis_4 = "ln(rho) / ln(20)";
             info.axis_5 = "((5/3 |eta - 1| / (eta + 1))^(1/4) - 0.35) / 0.65";
+            if (d.family.inside) info.axis_5 = "(3 u - u^2) / 2, u = " + info.axis_5;
             info.method =
                 "Gauss-Legendre over stretched slopes, nodes levelled for the least largest error";
             info.error_kind = "relative";

@@ -44,7 +44,7 @@ double solve(double wanted, double lo, double hi, const F& f)
 Seen seen_at(const TablePoint& at, bool inside)
 {
     Seen s;
-    const double z = 0.35 + 0.65 * at.w;
+    const double u = inside ? 1.5 - std::sqrt(2.25 - 2 * at.w) : at.w, z = 0.35 + 0.65 * u;
     s.alpha_x = std::max(1e-4, std::cbrt(at.z * at.z * at.z * at.z));
     s.alpha_y = s.alpha_x * std::exp(-2.995732273553991 * at.v);
     const double q = 0.6 * z * z * z * z;
@@ -155,7 +155,7 @@ std::shared_ptr<const Lattice> lattice_of(const Definition& d, const BakeProgres
 
 std::array<int, 5> glass_anisotropy_size(bool inside)
 {
-    if (inside) return {26, 19, 7, 8, 10};
+    if (inside) return {31, 22, 8, 10, 12};
     return {25, 13, 7, 7, 7};
 }
 

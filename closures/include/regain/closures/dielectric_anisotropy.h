@@ -28,11 +28,15 @@
 ///         along the grooves is sqrt(1 - kappa^2) = eta, whatever the width: at
 ///         t^2 = eta^2 / (kappa^2 - mu^2), which is 3/8 or a little more of this axis, as
 ///             eta >= 1   s = 1
-///             eta < 1    s = eta / sqrt(max(kappa^2 - mu^2, kappa^2 / 2)), from 0.3 to sqrt(rho)
+///             eta < 1    s^-4 = r^-4 + rho^-2,
+///                        r = max(0.3, eta / sqrt(max(kappa^2 - mu^2, kappa^2 / 2)))
+///         where r goes over into sqrt(rho), as beyond that the edge is where a changes anyway.
 ///     z   the power 3/4 of the wider width
 ///     4   ln rho / ln 20; D is 0 where rho is 1; beyond 20 its end serves
-///     5   (index_coordinate(eta) - 0.35) / 0.65: index 1.02 to 4 and inverses; beyond, the ends
-///     serve
+///     5   of u = (index_coordinate(eta) - 0.35) / 0.65, index 1.02 to 4 and inverses; beyond, the
+///         ends serve
+///           eta >= 1   u
+///           eta < 1    (3 u - u^2) / 2, as near index 1 more depends on it
 ///
 /// one for either side, by distribution and form of transmission shadowing.
 
@@ -78,8 +82,10 @@ struct AnisotropicGlassPlace
                Real(0.25f) * f(detail::exp(detail::constant<Real>(1.8) * log_rho));
         x[2] = detail::sqrt(wide * detail::sqrt(wide));
         x[3] = log_rho * detail::constant<Real>(1 / 2.995732273553991);
-        x[4] = (detail::index_coordinate(eta) - detail::constant<Real>(0.35)) *
-               detail::constant<Real>(1 / 0.65);
+        const Real u = detail::max((detail::index_coordinate(eta) - detail::constant<Real>(0.35)) *
+                                       detail::constant<Real>(1 / 0.65),
+                                   Real(0));
+        x[4] = detail::select(inside, Real(0.5f) * u * (Real(3) - u), u);
     }
 
     /// a above.
@@ -95,11 +101,14 @@ struct AnisotropicGlassPlace
     static Real critical_tangent2(const Real& mu, const Real& rho, const Real& eta)
     {
         const Real one(1), kappa2 = (one - eta) * (one + eta);
-        const Real s2 = eta * eta /
-                        detail::max(detail::max(kappa2 - mu * mu, Real(0.5f) * kappa2),
-                                    detail::constant<Real>(1e-30));
-        return detail::select(eta < one,
-                              detail::min(detail::max(s2, detail::constant<Real>(0.09)), rho), one);
+        const Real r2 =
+            detail::max(eta * eta /
+                            detail::max(detail::max(kappa2 - mu * mu, Real(0.5f) * kappa2),
+                                        detail::constant<Real>(1e-20)),
+                        detail::constant<Real>(0.09));
+        // r2 rho / sqrt(r2^2 + rho^2), of which neither square overflows.
+        const Real part = rho / r2;
+        return detail::select(eta < one, rho / detail::sqrt(one + part * part), one);
     }
 
 private:

@@ -12,15 +12,11 @@
 /// A closure is one lobe; an interface between two media is one, too, with the event `either`,
 /// because its sampler picks the event. Only a closure whose samples are of both kinds, with and
 /// without density, becomes two lobes, of which each passes on its own kind.
-///
-/// A closure whose eval is an estimate gets random numbers that are a hash of the two directions.
 
 #pragma once
 
 #include <regain/clarisse/host.h>
-#include <regain/closures/host_queries.h>
-#include <regain/closures/random_stream.h>
-#include <regain/closures/shading_frame.h>
+#include <regain/closures/point_lobe.h>
 
 REGAIN_NAMESPACE_BEGIN
 namespace clarisse {
@@ -37,101 +33,47 @@ public:
     /// density, or those that have none.
     ClosureLobe(const Closure& closure, const char* name, const vec3<Real>& view,
                 const vec3<Real>& ng, scatter kind)
-        : _closure(closure),
-          _prepared(closure.prepare(known_direction(view, ng.dot(view)))),
-          _view(view),
-          _ng(ng),
+        : _lobe(closure, view, ng, lobe_label{event::reflection, kind, name}.is_singular()),
           _name(name),
           _kind(kind)
     {}
 
     lobe_label label() const override
     {
-        const event ev = _closure.traits().transmissive ? event::either : event::reflection;
-        return {ev, _kind, _name};
+        const bool both = _lobe.closure().traits().transmissive;
+        return {both ? event::either : event::reflection, _kind, _name};
     }
 
-    Real roughness() const override { return is_singular() ? Real(0) : widest_alpha(_closure); }
+    Real roughness() const override { return _lobe.roughness(); }
 
     Real sample(const vec3<Real>& wi, Real u, Real v, Real w, vec3<Real>& wo, color<Real>& weight,
                 Real* reverse_pdf) const override
     {
-        const Sample<Real> s =
-            with_known(wi, [&](const auto& p) { return p.sample(regain::Vec3<Real>(u, v, w)); });
+        const PointSample<Real> s = _lobe.sample(wi, {u, v, w});
         wo = s.wi;
-        if (!s.valid || s.delta != is_singular() || !is_on_its_side(wo))
-            return none(weight, reverse_pdf);
-        weight = s.weight * radiance_factor(_closure, wi, wo);
-        if (reverse_pdf) *reverse_pdf = s.delta ? s.pdf : _closure.pdf(wo, wi);
+        if (reverse_pdf)
+            *reverse_pdf = !(s.pdf > 0)              ? Real(0)
+                           : _lobe.without_density() ? s.pdf
+                                                     : _lobe.reverse_pdf(wi, wo);
+        weight = s.weight;
         return s.pdf;
     }
 
     Real evaluate(const vec3<Real>& wi, const vec3<Real>& wo, color<Real>& weight,
                   Real* reverse_pdf) const override
     {
-        if (is_singular() || !is_on_its_side(wo)) return none(weight, reverse_pdf);
-        const Real pdf = with_known(wi, [&](const auto& p) {
-            Real density = p.pdf(wo);
-            if (!(density > 0) && !stochastic) return density;
-            const color<Real> f = value(p, wi, wo);
-            if (!(density > 0) && f != color<Real>(Real(0))) density = Real(least_pdf);
-            if (density > 0) weight = f * (radiance_factor(_closure, wi, wo) / density);
-            return density;
-        });
-        if (!(pdf > 0)) return none(weight, reverse_pdf);
-        if (reverse_pdf) *reverse_pdf = _closure.pdf(wo, wi);
-        return pdf;
+        const PointSample<Real> s = _lobe.evaluate(wi, wo);
+        if (reverse_pdf) *reverse_pdf = s.pdf > 0 ? _lobe.reverse_pdf(wi, wo) : Real(0);
+        weight = s.weight;
+        return s.pdf;
     }
 
-    color<Real> albedo(const vec3<Real>& wi) const override
-    {
-        return with_known(wi, [](const auto& p) {
-            const auto a = p.albedo();
-            return a.reflect + a.transmit;
-        });
-    }
+    color<Real> albedo(const vec3<Real>& wi) const override { return _lobe.albedo(wi); }
 
-    Real ior() const override { return relative_index(_closure); }
+    Real ior() const override { return relative_index(_lobe.closure()); }
 
 private:
-    static constexpr bool stochastic =
-        regain::detail::TakesNumbersInEval<typename Closure::Prepared, Real>::value;
-
-    bool is_singular() const { return label().is_singular(); }
-
-    static Real none(color<Real>& weight, Real* reverse_pdf)
-    {
-        weight = color<Real>(Real(0));
-        if (reverse_pdf) *reverse_pdf = 0;
-        return 0;
-    }
-
-    bool is_on_its_side(const vec3<Real>& wo) const { return sides_agree(wo.z, _ng.dot(wo)); }
-
-    template <class Prepared>
-    static color<Real> value(const Prepared& prepared, [[maybe_unused]] const vec3<Real>& wi,
-                             const vec3<Real>& wo)
-    {
-        if constexpr (stochastic)
-        {
-            const auto u = RandomStream<Real>(wi).next3();
-            return prepared.eval(wo, RandomStream<Real>(u + wo).next3());
-        }
-        else
-            return prepared.eval(wo);
-    }
-
-    // Hosts nearly always ask about the direction the lobe was made for.
-    template <class Ask>
-    auto with_known(const vec3<Real>& wi, const Ask& ask) const
-    {
-        return wi == _view ? ask(_prepared)
-                           : ask(_closure.prepare(known_direction(wi, _ng.dot(wi))));
-    }
-
-    Closure _closure;
-    typename Closure::Prepared _prepared;
-    vec3<Real> _view, _ng;
+    PointLobe<Closure> _lobe;
     const char* _name;
     scatter _kind;
 };

@@ -91,7 +91,8 @@ void read_interface(Fields& fields, ClosureSpec& spec)
     if (const auto given = fields.text("scatter_mode"))
         i.mode = static_cast<ScatterMode>(choose("scatter_mode", *given, scatter_modes));
     i.thin_walled = fields.flag("thin_walled").value_or(false);
-    i.tint = fields.color("tint", unit_range).value_or(i.tint);
+    i.reflection_tint = i.transmission_tint =
+        fields.color("tint", unit_range).value_or(i.reflection_tint);
     if (i.thin_walled)
         fields.reject("transmission_shadowing",
                       "a thin sheet transmits as it reflects, and has no form to choose");

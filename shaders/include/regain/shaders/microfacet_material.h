@@ -74,8 +74,9 @@ struct InterfaceSurface
     double eta = 1.5;
     ScatterMode mode = ScatterMode::RT;
     TransmissionShadowing shadowing = TransmissionShadowing::correlated;
-    bool thin_walled = false;  ///< a sheet: eta is its index over that around it
-    ColorD tint{1.0};          ///< of what is reflected and what is transmitted, in [0, 1]
+    bool thin_walled = false;       ///< a sheet: eta is its index over that around it
+    ColorD reflection_tint{1.0};    ///< of what is reflected, in [0, 1]
+    ColorD transmission_tint{1.0};  ///< of what is transmitted, in [0, 1]
 };
 
 /// Burley's sheen alone: it has no microfacets. color: linear; weight in [0, 1].
@@ -188,16 +189,19 @@ public:
         if (const auto* i = std::get_if<InterfaceSurface>(&surface))
         {
             const Real eta = Real(i->eta);
-            const Color tint(i->tint);
+            const Color reflected(i->reflection_tint), transmitted(i->transmission_tint);
             if (i->thin_walled)
-                return visit(compensated(ThinDielectric(d, eta, i->mode, tint, tint, _tables),
-                                         gain_method(), _tables, strength));
+                return visit(
+                    compensated(ThinDielectric(d, eta, i->mode, reflected, transmitted, _tables),
+                                gain_method(), _tables, strength));
             const auto* walk = random_walk(strength);
             if (walk && walk->bounded)
-                return visit(BoundedDielectricWalk(d, eta, tint, tint, walk->eval_samples,
-                                                   _interface_tables, _tables));
-            if (walk) return visit(DielectricWalk(d, eta, tint, tint, walk->eval_samples));
-            const Dielectric lobe(d, eta, i->mode, tint, tint, i->shadowing, _interface_tables);
+                return visit(BoundedDielectricWalk(d, eta, reflected, transmitted,
+                                                   walk->eval_samples, _interface_tables, _tables));
+            if (walk)
+                return visit(DielectricWalk(d, eta, reflected, transmitted, walk->eval_samples));
+            const Dielectric lobe(d, eta, i->mode, reflected, transmitted, i->shadowing,
+                                  _interface_tables);
             if (std::holds_alternative<KullaContyForm>(method))
                 return visit(kulla_conty(lobe, _interface_tables, strength));
             if (std::holds_alternative<Tail>(method))

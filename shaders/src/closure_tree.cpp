@@ -36,27 +36,27 @@ ClosureTree::Node ClosureTree::add_node(const NodeData& node)
 ClosureTree::Node ClosureTree::lobe(const Material& material, const char* name)
 {
     _all.push_back({material, name ? name : own_name(material)});
-    return add_node({Kind::lobe, static_cast<Node>(_all.size()) - 1, -1, ColorD(1.0)});
+    return add_node({{Kind::lobe, -1, -1, ColorD(1.0)}, _all.size() - 1});
 }
 
 ClosureTree::Node ClosureTree::layer(Node top, Node base)
 {
-    return add_node({Kind::layer, top, base, ColorD(1.0)});
+    return add_node({{Kind::layer, top, base, ColorD(1.0)}});
 }
 
 ClosureTree::Node ClosureTree::mix(Node foreground, Node background, double amount)
 {
-    return add_node({Kind::mix, foreground, background, ColorD(detail::saturate(amount))});
+    return add_node({{Kind::mix, foreground, background, ColorD(detail::saturate(amount))}});
 }
 
 ClosureTree::Node ClosureTree::add(Node a, Node b)
 {
-    return add_node({Kind::add, a, b, ColorD(1.0)});
+    return add_node({{Kind::add, a, b, ColorD(1.0)}});
 }
 
 ClosureTree::Node ClosureTree::multiply(Node node, const ColorD& weight)
 {
-    return add_node({Kind::multiply, node, -1, clamped(weight)});
+    return add_node({{Kind::multiply, node, -1, clamped(weight)}});
 }
 
 void ClosureTree::set_root(Node root)
@@ -65,6 +65,7 @@ void ClosureTree::set_root(Node root)
     _steps.clear();
     bool any = false;
     flatten(root, 0, ColorD(1.0), any);
+    _root = root;
 }
 
 void ClosureTree::bind_tables(bool for_albedo)
@@ -86,7 +87,7 @@ void ClosureTree::flatten(Node node, int depth, const ColorD& passing, bool& any
                                     std::to_string(deepest) + " deep");
     if (passing == ColorD(0.0)) return;
 
-    const NodeData n = _nodes[static_cast<std::size_t>(node)];
+    const Made n = made(node);
     const auto weighed = [&](Node part, const ColorD& weight, bool& some) {
         if (weight == ColorD(1.0)) return flatten(part, depth + 1, passing, some);
         const Imath::C3f w(weight);
@@ -108,7 +109,7 @@ void ClosureTree::flatten(Node node, int depth, const ColorD& passing, bool& any
             if (static_cast<int>(_lobes.size()) == most_lobes)
                 throw std::invalid_argument("a material has more than " +
                                             std::to_string(most_lobes) + " closures");
-            _lobes.push_back(_all[static_cast<std::size_t>(n.first)]);
+            _lobes.push_back(_all[_nodes[static_cast<std::size_t>(node)].lobe]);
             _steps.push_back({StepKind::lobe, static_cast<int>(_lobes.size()) - 1});
             any = true;
             break;

@@ -35,6 +35,16 @@ class ClosureTree
 public:
     using Material = std::variant<MicrofacetMaterial, PlainMaterial>;
     using Node = int;
+    enum class Kind { lobe, layer, mix, add, multiply };
+
+    /// What a node was made of. lobe: no nodes; layer: top and base; mix: foreground, background
+    /// and, as weight, the amount of the foreground; multiply: first and weight.
+    struct Made
+    {
+        Kind kind;
+        Node first, second;
+        ColorD weight;
+    };
 
     /// Closures that a tree may have, and combinations on the way to one.
     static constexpr int most_lobes = 16, deepest = 64;
@@ -56,6 +66,15 @@ public:
     /// node that there is none of, and where there are more closures than most_lobes or more
     /// combinations in one another than `deepest`, naming both numbers.
     REGAIN_SHADERS_API void set_root(Node);
+
+    /// As it was put together, for hosts that want a tree of their own; -1 before set_root.
+    Node root() const { return _root; }
+    const Made& made(Node node) const { return _nodes[static_cast<std::size_t>(node)].made; }
+    /// Of a node that is a lobe; as given, no tables bound.
+    const Material& material_of(Node node) const
+    {
+        return _all[_nodes[static_cast<std::size_t>(node)].lobe].material;
+    }
 
     /// The share of the surface that is there, in [0, 1], clamped; NaN becomes 1. It weighs no
     /// closure.
@@ -123,12 +142,10 @@ public:
     }
 
 private:
-    enum class Kind { lobe, layer, mix, add, multiply };
     struct NodeData
     {
-        Kind kind;
-        Node first, second;
-        ColorD weight;  // of mix: the amount of the first
+        Made made;
+        std::size_t lobe = 0;  // in _all
     };
     struct Lobe
     {
@@ -153,10 +170,11 @@ private:
     Node add_node(const NodeData&);
     void flatten(Node, int depth, const ColorD& passing, bool& any);
 
-    std::vector<Lobe> _all;  // by the `first` of their nodes
+    std::vector<Lobe> _all;
     std::vector<NodeData> _nodes;
     std::vector<Lobe> _lobes;
     std::vector<Step> _steps;
+    Node _root = -1;
     double _presence = 1;
 };
 

@@ -72,7 +72,9 @@ Examples:
     declare_materials(o, command);
     command.add_option("--object", o.object, "widget, sphere, or nested (a sphere in a sphere)")
         ->capture_default_str();
-    command.add_option("--host", o.host, "renderman (batched) or clarisse (one point)")
+    command
+        .add_option("--host", o.host,
+                    "renderman (batched), clarisse (one point) or osl (trees of closures)")
         ->capture_default_str();
     command.add_option("--environment", o.environment,
                        "latitude-longitude EXR or HDR that lights the scene, or white: 1 from "

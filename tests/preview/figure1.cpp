@@ -86,7 +86,7 @@ TEST_P(Figure1, WithCompensationItStaysBrightAndSaturates)
     EXPECT_GT(row.saturation(3) - none.saturation(3), row.saturation(1) - none.saturation(1));
 }
 
-INSTANTIATE_TEST_SUITE_P(Hosts, Figure1, testing::Values(Host::renderman, Host::clarisse),
+INSTANTIATE_TEST_SUITE_P(Hosts, Figure1, testing::ValuesIn(all_hosts),
                          [](const auto& host) { return std::string(name(host.param)); });
 
 }}  // namespace regain::tools::preview

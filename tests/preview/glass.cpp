@@ -86,7 +86,7 @@ TEST_P(Glass, WithoutCompensationRoughGlassDarkens)
     EXPECT_LT(rough, smooth - 0.1);
 }
 
-INSTANTIATE_TEST_SUITE_P(Hosts, Glass, testing::Values(Host::renderman, Host::clarisse),
+INSTANTIATE_TEST_SUITE_P(Hosts, Glass, testing::ValuesIn(all_hosts),
                          [](const auto& host) { return std::string(name(host.param)); });
 
 // Through the batched host alone: to the other this is two lobes, whose albedos it asks a walk for.

@@ -49,7 +49,7 @@ TEST_P(MetalFurnace, UncompensatedDarkensWithRoughness)
     EXPECT_LT(former, 0.6);
 }
 
-INSTANTIATE_TEST_SUITE_P(Hosts, MetalFurnace, testing::Values(Host::renderman, Host::clarisse),
+INSTANTIATE_TEST_SUITE_P(Hosts, MetalFurnace, testing::ValuesIn(all_hosts),
                          [](const auto& host) { return std::string(name(host.param)); });
 
 }}  // namespace regain::tools::preview

@@ -37,7 +37,7 @@ TEST(Presence, a_white_sphere_that_is_half_there_disappears_in_a_furnace)
 {
     SphereWorld w(constant_image(1.0f), 16);
     w.world.max_bounces = 1000;
-    for (const Host host : {Host::renderman, Host::clarisse})
+    for (const Host host : all_hosts)
         for (const double presence : {0.5, 0.1})
         {
             const auto row = integrator(host, w.world, {diffuse(1, presence)});
@@ -53,7 +53,7 @@ TEST(Presence, a_sphere_that_is_not_there_costs_no_bounce)
 {
     SphereWorld w(constant_image(1.0f), 8);
     w.world.max_bounces = 1;
-    for (const Host host : {Host::renderman, Host::clarisse})
+    for (const Host host : all_hosts)
     {
         const auto row = integrator(host, w.world, {diffuse(0, 0)});
         Film film(8, 8);
@@ -66,7 +66,7 @@ TEST(Presence, a_sphere_that_is_not_there_costs_no_bounce)
 TEST(Presence, a_black_sphere_lets_by_its_absence_squared)
 {
     const SphereWorld w(constant_image(1.0f), 16);
-    for (const Host host : {Host::renderman, Host::clarisse})
+    for (const Host host : all_hosts)
     {
         const auto row = integrator(host, w.world, {diffuse(0, 0.4)});
         Film film(16, 16);
@@ -85,7 +85,7 @@ TEST(Presence, a_veil_lets_by_its_share_of_the_light)
 {
     const Environment studio(make_studio());
     const Camera camera(V3f(0, 0.8f, 1), V3f(0.0f), 1.0f, 1.0f);
-    for (const Host host : {Host::renderman, Host::clarisse})
+    for (const Host host : all_hosts)
     {
         double light[2];
         for (const bool veiled : {false, true})

@@ -3,6 +3,7 @@
 
 #include "bound_material.h"
 #include "lobe_maker.h"
+#include "osl_shader.h"
 
 #include <regain/renderman/surface_bxdf.h>
 #include <regain/renderman/uniform_presence.h>
@@ -10,8 +11,6 @@
 namespace regain::tools::preview {
 
 using shaders::ClosureTree;
-
-namespace {
 
 const LobeMaker& maker_of(const ClosureTree::Material& material)
 {
@@ -27,6 +26,8 @@ const LobeMaker& maker_of(const ClosureTree::Material& material)
     }
     return ggx_lobes;
 }
+
+namespace {
 
 // The instance data is the tree.
 class TreeFactory final : public renderman::Factory
@@ -98,9 +99,15 @@ public:
     }
     GridMaterial grid() override { return {&_factory, &_tree}; }
     PointMaterial point() override { return {&_callbacks, &_tree}; }
+    OslMaterial osl() override
+    {
+        if (!_shader) _shader = std::make_unique<OslShader>(_tree);
+        return {_shader.get()};
+    }
 
 private:
     ClosureTree _tree;
+    std::unique_ptr<OslShader> _shader;
     TreeFactory _factory;
     clarisse::material_callbacks<float> _callbacks;
 };

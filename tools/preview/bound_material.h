@@ -2,11 +2,12 @@
 // Copyright Contributors to the Regain project
 
 /// @file
-/// A material behind both adapters, so that integrators need not be compiled with it.
+/// A material behind all adapters, so that integrators need not be compiled with it.
 
 #pragma once
 
 #include "grid_integrator.h"
+#include "osl_integrator.h"
 #include "point_integrator.h"
 
 #include <regain/shaders/closure_tree.h>
@@ -19,9 +20,10 @@ class BoundMaterial
 {
 public:
     virtual ~BoundMaterial() = default;
-    /// The material as either host takes it; it lives as long as this object.
+    /// The material as each host takes it; it lives as long as this object.
     virtual GridMaterial grid() = 0;
     virtual PointMaterial point() = 0;
+    virtual OslMaterial osl() = 0;
 };
 
 /// Its tables are bound.

@@ -2,13 +2,14 @@
 // Copyright Contributors to the Regain project
 
 /// @file
-/// How a closure of a tree becomes lobes of either host. The adapters of all the closures that a
+/// How a closure of a tree becomes lobes of each host. The adapters of all the closures that a
 /// material may be are the bulk of what the preview takes to compile: they are in one file per
 /// distribution, and one for what has no microfacets.
 
 #pragma once
 
 #include <regain/clarisse/closure_lobe.h>
+#include <regain/osl/closure_bsdf.h>
 #include <regain/renderman/lobe_batch.h>
 #include <regain/shaders/closure_tree.h>
 
@@ -25,6 +26,19 @@ struct PointLobe
     clarisse::color<float>* albedo;
 };
 
+/// A closure at a point of the OSL-shaped host, and what becomes of it.
+struct OslLobe
+{
+    float strength;
+    const osl::ComponentFrame& frame;
+    const osl::ShaderGlobals& globals;
+    const Imath::C3f& weight;
+    bool asked;
+    osl::CompositeBsdf& composite;
+    Imath::C3f& albedo;
+    osl::Problems& problems;
+};
+
 /// Each is asked about materials of its own kind only.
 struct LobeMaker
 {
@@ -33,9 +47,12 @@ struct LobeMaker
     renderman::LobeBatch* (*batch)(const renderman::ShadingContext*, const Material&,
                                    const char* name);
     bool (*add)(const Material&, const PointLobe&);
+    void (*add_bsdf)(const Material&, const OslLobe&);
 };
 
 extern const LobeMaker ggx_lobes, beckmann_lobes, gtr_lobes, std_lobes, plain_lobes;
+
+const LobeMaker& maker_of(const LobeMaker::Material&);
 
 /// with(material, strength, visit) calls visit with the material's closure.
 template <class With>
@@ -54,7 +71,14 @@ struct MakesLobes
             return clarisse::add_lobes(closure, l.k, l.name, l.point, l.pad, l.pending, l.albedo);
         });
     }
-    static constexpr LobeMaker maker{&batch, &add};
+    static void add_bsdf(const LobeMaker::Material& material, const OslLobe& l)
+    {
+        With::call(material, l.strength, [&](const auto& closure) {
+            osl::add_closure(closure, l.frame, l.globals, l.weight, l.asked, l.composite, l.albedo,
+                             l.problems);
+        });
+    }
+    static constexpr LobeMaker maker{&batch, &add, &add_bsdf};
 };
 
 /// Of one distribution.

@@ -27,13 +27,22 @@ float height_of(Object object) { return object == Object::widget ? kWidgetHeight
 
 Host host_named(const std::string& wanted)
 {
-    for (const Host host : {Host::renderman, Host::clarisse})
+    for (const Host host : all_hosts)
         if (wanted == name(host)) return host;
     throw BadInput(
-        fmt::format("--host {}: no such host; there are renderman and clarisse", wanted));
+        fmt::format("--host {}: no such host; there are renderman, clarisse and osl", wanted));
 }
 
-const char* name(Host host) { return host == Host::renderman ? "renderman" : "clarisse"; }
+const char* name(Host host)
+{
+    switch (host)
+    {
+        case Host::renderman: return "renderman";
+        case Host::clarisse: return "clarisse";
+        case Host::osl: return "osl";
+    }
+    return "";
+}
 
 Object object_named(const std::string& wanted)
 {
@@ -113,6 +122,12 @@ RowIntegrator::RowIntegrator(Host host, const World& world,
         std::vector<GridMaterial> bound;
         for (const auto& m : _materials) bound.push_back(m->grid());
         _integrator = std::make_unique<GridIntegrator>(world, std::move(bound));
+    }
+    else if (host == Host::osl)
+    {
+        std::vector<OslMaterial> bound;
+        for (const auto& m : _materials) bound.push_back(m->osl());
+        _integrator = std::make_unique<OslIntegrator>(world, std::move(bound));
     }
     else
     {

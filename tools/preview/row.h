@@ -18,9 +18,10 @@
 
 namespace regain::tools::preview {
 
-enum class Host { renderman, clarisse };
+enum class Host { renderman, clarisse, osl };
+constexpr Host all_hosts[] = {Host::renderman, Host::clarisse, Host::osl};
 
-/// "renderman", "clarisse"; BadInput for any other name.
+/// "renderman", "clarisse", "osl"; BadInput for any other name.
 Host host_named(const std::string&);
 const char* name(Host);
 

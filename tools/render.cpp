@@ -36,7 +36,7 @@ using shaders::MicrofacetMaterial;
 /// One row of the picture.
 struct Row
 {
-    Row(const RenderPlan& plan, const RenderOptions& options, const RowScene& scene,
+    Row(RenderPlan& plan, const RenderOptions& options, const RowScene& scene,
         const Environment& light, const Compensation& method, int height)
         : camera(scene.camera(static_cast<float>(plan.width) / static_cast<float>(height))),
           integrator(plan.host,
@@ -46,12 +46,17 @@ struct Row
           film(plan.width, height)
     {}
 
-    static std::vector<std::unique_ptr<BoundMaterial>> materials(const RenderPlan& plan,
+    static std::vector<std::unique_ptr<BoundMaterial>> materials(RenderPlan& plan,
                                                                  const Compensation& method)
     {
         MicrofacetMaterial floor = floor_material();
         floor.bind_tables();
-        auto all = plan.material.bind(method);
+        std::vector<std::unique_ptr<BoundMaterial>> all;
+        // It has one row, to which it goes.
+        if (plan.plugin)
+            all.push_back(std::move(plan.plugin));
+        else
+            all = plan.material.bind(method);
         all.insert(all.begin(), bind(floor));
         return all;
     }
@@ -79,7 +84,13 @@ Metadata describe(const RenderPlan& plan, const RenderOptions& options, bool who
     Metadata metadata;
     auto& e = metadata.entries;
     e.emplace_back("version", REGAIN_VERSION_STRING);
-    plan.material.describe(metadata);
+    if (plan.plugin_name.empty())
+        plan.material.describe(metadata);
+    else
+    {
+        e.emplace_back("plugin", plan.plugin_name);
+        e.emplace_back("settings", fmt::format("{}", fmt::join(options.settings, " ")));
+    }
     e.emplace_back("host", preview::name(plan.host));
     e.emplace_back("object", preview::name(plan.layout.object));
     e.emplace_back("bounces", std::to_string(plan.bounces));
@@ -99,7 +110,7 @@ int render_command(const RenderOptions& options)
 
     std::deque<Row> rows;
     const auto& methods = plan.material.methods();
-    const int count = static_cast<int>(methods.size());
+    const int count = plan.rows();
     for (int i = 0; i < count; ++i)
     {
         const int height = plan.height * (i + 1) / count - plan.height * i / count;

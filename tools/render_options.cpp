@@ -63,6 +63,7 @@ Examples:
   regain render --material glass --thin-walled --object sphere
   regain render --material glass --scatter-mode T --transmission-shadowing beta
   regain render --material sheen --weight 0,0.5,1 --base 0.1
+  regain render --plugin surface.so --set coat=1 --set base_color=0.1,0.2,0.6
   regain render --distribution gtr --gamma 1.5 --method walk)");
     command.add_option("-o,--output", o.output, "EXR to write; the PNG goes beside it")
         ->capture_default_str();
@@ -72,10 +73,13 @@ Examples:
     declare_materials(o, command);
     command.add_option("--object", o.object, "widget, sphere, or nested (a sphere in a sphere)")
         ->capture_default_str();
-    command
-        .add_option("--host", o.host,
-                    "renderman (batched), clarisse (one point) or osl (trees of closures)")
-        ->capture_default_str();
+    command.add_option("--host", o.host,
+                       "renderman (batched), clarisse (one point) or osl (trees of closures) "
+                       "[renderman, or the one a plug-in is for]");
+    command.add_option("--plugin", o.plugin,
+                       "shared object with a material for one of the hosts; one object is shown");
+    command.add_option("--set", o.settings, "NAME=NUMBER or NAME=R,G,B of the plug-in's, repeated")
+        ->allow_extra_args(false);
     command.add_option("--environment", o.environment,
                        "latitude-longitude EXR or HDR that lights the scene, or white: 1 from "
                        "everywhere, and no floor [built-in studio]");

@@ -37,8 +37,11 @@ struct RenderOptions
     std::vector<double> alphas;
     std::optional<double> alpha_ratio;
 
+    std::string plugin;
+    std::vector<std::string> settings;  // of it
+
     std::string object = "widget";
-    std::string host = "renderman";
+    std::optional<std::string> host;  // renderman, or that of the plug-in
     std::string environment;
     std::int64_t samples = 64;
     std::int64_t seed = 1;

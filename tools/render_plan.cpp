@@ -3,6 +3,8 @@
 
 #include "render_plan.h"
 
+#include "errors.h"
+#include "preview/plugin_material.h"
 #include "render_checks.h"
 
 #include <regain/luts/replace_file.h>
@@ -63,6 +65,48 @@ preview::LatLongImage light_of(const std::string& environment)
 
 }  // namespace
 
+namespace {
+
+// A plug-in has parameters of its own for all that these say.
+void require_plugin_alone(const RenderOptions& o)
+{
+    const auto refuse_where = [&](bool given, const char* option) {
+        if (given)
+            throw BadInput(
+                fmt::format("{}: does not go with --plugin, whose parameters are set by "
+                            "--set NAME=VALUE",
+                            option));
+    };
+    refuse_where(o.material != "metal", "--material");
+    refuse_where(o.metal.has_value(), "--metal");
+    refuse_where(o.ior.has_value(), "--ior");
+    refuse_where(o.thin_walled, "--thin-walled");
+    refuse_where(o.scatter_mode.has_value(), "--scatter-mode");
+    refuse_where(o.transmission_shadowing.has_value(), "--transmission-shadowing");
+    refuse_where(!o.weights.empty(), "--weight");
+    refuse_where(o.base.has_value(), "--base");
+    refuse_where(!o.alphas.empty(), "--alpha");
+    refuse_where(o.alpha_ratio.has_value(), "--alpha-ratio");
+    refuse_where(o.distribution.has_value(), "--distribution");
+    refuse_where(o.gamma.has_value(), "--gamma");
+    refuse_where(!o.method.empty(), "--method");
+}
+
+void add_plugin(const RenderOptions& options, RenderPlan& plan)
+{
+    require_plugin_alone(options);
+    preview::PluginMaterial loaded = preview::load_plugin(options.plugin, options.settings);
+    if (options.host && *options.host != preview::name(loaded.host))
+        refuse("--host", *options.host,
+               fmt::format("the plug-in {} is for the host {}", options.plugin,
+                           preview::name(loaded.host)));
+    plan.host = loaded.host;
+    plan.plugin = std::move(loaded.material);
+    plan.plugin_name = loaded.name;
+}
+
+}  // namespace
+
 RenderPlan make_plan(const RenderOptions& options)
 {
     check_count("--spp", options.samples, 1, 65536);
@@ -76,22 +120,30 @@ RenderPlan make_plan(const RenderOptions& options)
     RenderPlan plan{options.output,
                     fs::path(options.output).replace_extension(".png"),
                     std::move(material),
-                    preview::host_named(options.host),
+                    nullptr,
+                    "",
+                    preview::host_named(options.host.value_or("renderman")),
                     1440,
                     0,
                     std::move(config),
                     {},
                     0,
                     {}};
-    plan.layout.objects = plan.material.objects();
+    if (!options.plugin.empty())
+        add_plugin(options, plan);
+    else if (!options.settings.empty())
+        refuse("--set", options.settings.front(), "goes with --plugin alone");
+    plan.layout.objects = plan.plugin ? 1 : plan.material.objects();
     plan.layout.object = preview::object_named(options.object);
-    plan.layout.transparent = plan.material.is_glass();
+    // What a plug-in may be is not known.
+    plan.layout.transparent = plan.plugin || plan.material.is_glass();
     plan.layout.floor = options.environment != kWhite;
     // Light takes its time to find out of glass.
     const int bounces = plan.layout.transparent ? 64 : 16;
     plan.bounces = options.bounces ? static_cast<int>(options.bounces) : bounces;
 
-    plan.height = 300 * static_cast<int>(plan.material.methods().size());
+    plan.height = 300 * plan.rows();
+    if (plan.plugin) plan.width = plan.height = 480;
     if (!options.size.empty()) parse_size(options.size, &plan.width, &plan.height);
     check_outputs(plan);
     plan.light = light_of(options.environment);

@@ -7,6 +7,7 @@
 
 #pragma once
 
+#include "preview/bound_material.h"
 #include "preview/environment.h"
 #include "preview/row.h"
 #include "render_material.h"
@@ -19,12 +20,17 @@ struct RenderPlan
 {
     std::filesystem::path exr, png;
     RenderMaterial material;
+    std::unique_ptr<preview::BoundMaterial> plugin;  ///< shown in its place; null: none
+    std::string plugin_name;
     preview::Host host;
     int width = 0, height = 0;
     shaders::ColorConfig config;
     preview::RowLayout layout;
     int bounces = 0;
     preview::LatLongImage light;
+
+    /// One row for each method of the material; a plug-in has its own.
+    int rows() const { return plugin ? 1 : static_cast<int>(material.methods().size()); }
 };
 
 /// Throws BadInput.

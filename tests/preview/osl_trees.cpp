@@ -125,7 +125,7 @@ struct Renderer
     osl::NodePool nodes{memory, sizeof memory};
     osl::ShaderGlobals globals{V3f(-0.6f, 0, -0.8f), V3f(0, 0, 1), V3f(0, 0, 1), V3f(1, 0, 0),
                                false};
-    OslShader shader;
+    TreeShader shader;
     osl::CompositeBsdf bsdf;
 };
 

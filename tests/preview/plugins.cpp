@@ -62,6 +62,18 @@ TEST(Plugins, car_paint_is_white_where_its_parts_are)
     EXPECT_NEAR(with({"coat=0", "flakes=0", "opacity=0.5"}), 1, 5e-3f);
 }
 
+TEST(Plugins, brocade_is_white_where_its_parts_are)
+{
+    const Settings white{"cloth_color=1,1,1", "thread_color=1,1,1"};
+    const auto with = [&](Settings more) {
+        more.insert(more.end(), white.begin(), white.end());
+        return furnace(REGAIN_BROCADE, more);
+    };
+    EXPECT_NEAR(with({}), 1, 5e-3f);
+    EXPECT_NEAR(with({"threads=1", "nap=0", "thread_roughness=0.8"}), 1, 5e-3f);
+    EXPECT_NEAR(with({"threads=0", "nap=1"}), 1, 5e-3f);
+}
+
 TEST(Plugins, say_what_they_are)
 {
     const PluginMaterial surface = load_plugin(REGAIN_SURFACE, {}),
@@ -70,6 +82,10 @@ TEST(Plugins, say_what_they_are)
     EXPECT_EQ(surface.host, Host::renderman);
     EXPECT_EQ(paint.name, "car_paint");
     EXPECT_EQ(paint.host, Host::clarisse);
+    const PluginMaterial brocade = load_plugin(REGAIN_BROCADE, {});
+    EXPECT_EQ(brocade.name, "brocade");
+    EXPECT_EQ(brocade.host, Host::osl);
+    EXPECT_THROW(brocade.material->grid(), std::logic_error);
     EXPECT_THROW(surface.material->point(), std::logic_error);
     EXPECT_THROW(paint.material->osl(), std::logic_error);
 }

@@ -101,13 +101,13 @@ public:
     PointMaterial point() override { return {&_callbacks, &_tree}; }
     OslMaterial osl() override
     {
-        if (!_shader) _shader = std::make_unique<OslShader>(_tree);
+        if (!_shader) _shader = std::make_unique<TreeShader>(_tree);
         return {_shader.get()};
     }
 
 private:
     ClosureTree _tree;
-    std::unique_ptr<OslShader> _shader;
+    std::unique_ptr<TreeShader> _shader;
     TreeFactory _factory;
     clarisse::material_callbacks<float> _callbacks;
 };

@@ -29,7 +29,7 @@ private:
         return tree;
     }
 
-    OslShader _shader;
+    TreeShader _shader;
 };
 
 }  // namespace

@@ -144,12 +144,12 @@ const ClosureColor* closure_of(const ClosureTree& tree, ClosureTree::Node node,
 
 }  // namespace
 
-OslShader::OslShader(const ClosureTree& tree) : _tree(tree)
+namespace {
+
+// The kinds of closures of the tree, with their tables.
+osl::ClosureLibrary library_of(const ClosureTree& tree)
 {
-    _lets_by = tree.presence() < 1;
-    for (int k = 0; k < tree.lobes(); ++k)
-        if (const auto* m = std::get_if<PlainMaterial>(&tree.material(k)))
-            _lets_by |= std::holds_alternative<shaders::TransparentSurface>(m->surface);
+    osl::ClosureLibrary library{osl::ClosureLibrary::Empty{}};
     const bool several = tree.lobes() > 1 || tree.presence() < 1;
     // A kind is looked for by what it is, which says nothing of its widths: first those that have
     // the tables of two.
@@ -158,11 +158,22 @@ OslShader::OslShader(const ClosureTree& tree) : _tree(tree)
         {
             const auto* m = std::get_if<MicrofacetMaterial>(&tree.material(k));
             if (!m || std::holds_alternative<shaders::SheenSurface>(m->surface)) continue;
-            if ((m->alpha_x != m->alpha_y) == anisotropic) _library.add(*m, several);
+            if ((m->alpha_x != m->alpha_y) == anisotropic) library.add(*m, several);
         }
+    return library;
 }
 
-const ClosureColor* OslShader::shade(const osl::ShaderGlobals& globals, osl::NodePool& pool) const
+}  // namespace
+
+TreeShader::TreeShader(const ClosureTree& tree) : OslShader(library_of(tree)), _tree(tree)
+{
+    _lets_by = tree.presence() < 1;
+    for (int k = 0; k < tree.lobes(); ++k)
+        if (const auto* m = std::get_if<PlainMaterial>(&tree.material(k)))
+            _lets_by |= std::holds_alternative<shaders::TransparentSurface>(m->surface);
+}
+
+const ClosureColor* TreeShader::shade(const osl::ShaderGlobals& globals, osl::NodePool& pool) const
 {
     const ClosureColor* Ci = closure_of(_tree, _tree.root(), globals, pool);
     // OSL has no presence but light that goes by.

@@ -2,8 +2,8 @@
 // Copyright Contributors to the Regain project
 
 /// @file
-/// What stands in for a compiled OSL shader: it writes a tree of closures into Ci, the one that a
-/// material is made of. And the renderer's side of the same material: its closures' tables.
+/// A shader as the integrator knows it: it writes a tree of closures into Ci, and the renderer
+/// makes of that what it samples.
 
 #pragma once
 
@@ -14,23 +14,36 @@ namespace regain::tools::preview {
 class OslShader
 {
 public:
-    /// The tables of the material's closures are bound; throws as bind_tables.
-    explicit OslShader(const shaders::ClosureTree&);
+    explicit OslShader(osl::ClosureLibrary library) : _library(std::move(library)) {}
+    virtual ~OslShader() = default;
 
     /// Ci at a point. Null is black.
-    const osl::ClosureColor* shade(const osl::ShaderGlobals&, osl::NodePool&) const;
+    virtual const osl::ClosureColor* shade(const osl::ShaderGlobals&, osl::NodePool&) const = 0;
+    /// Some light goes straight on.
+    virtual bool lets_by() const = 0;
 
     /// Ci as what a renderer samples, at the end of what `composite` has.
     osl::Problems flatten(const osl::ClosureColor* Ci, const osl::ShaderGlobals&,
                           osl::CompositeBsdf& composite) const;
 
-    /// Some light goes straight on.
-    bool lets_by() const { return _lets_by; }
+private:
+    osl::ClosureLibrary _library;
+};
+
+/// What stands in for a compiled shader: it describes a material by the closures that it is made
+/// of.
+class TreeShader final : public OslShader
+{
+public:
+    /// The tables of the material's closures are bound; throws as bind_tables.
+    explicit TreeShader(const shaders::ClosureTree&);
+
+    const osl::ClosureColor* shade(const osl::ShaderGlobals&, osl::NodePool&) const override;
+    bool lets_by() const override { return _lets_by; }
 
 private:
     shaders::ClosureTree _tree;
     bool _lets_by = false;
-    osl::ClosureLibrary _library{osl::ClosureLibrary::Empty{}};
 };
 
 }  // namespace regain::tools::preview

@@ -4,8 +4,10 @@
 #include "plugin_material.h"
 
 #include "../errors.h"
+#include "osl_shader.h"
 
 #include <regain/clarisse/plugin.h>
+#include <regain/osl/plugin.h>
 #include <regain/renderman/plugin.h>
 
 #include <fmt/format.h>
@@ -185,6 +187,48 @@ private:
     void* _object = nullptr;
 };
 
+class PluginShader final : public OslShader
+{
+public:
+    PluginShader(const osl::ShaderPlugin& plugin, const std::string& file,
+                 const std::vector<ParameterValue>& values)
+        : OslShader(osl::ClosureLibrary(osl::LibrarySettings{})), _plugin(plugin)
+    {
+        const char* error = nullptr;
+        _shader = plugin.create_shader(values.data(), &error);
+        if (!_shader) unusable(file, error);
+    }
+    ~PluginShader() override { _plugin.destroy_shader(_shader); }
+
+    const osl::ClosureColor* shade(const osl::ShaderGlobals& globals,
+                                   osl::NodePool& pool) const override
+    {
+        return _plugin.shade(_shader, globals, pool);
+    }
+    // Nobody says that it does not.
+    bool lets_by() const override { return true; }
+
+private:
+    const osl::ShaderPlugin& _plugin;
+    void* _shader = nullptr;
+};
+
+class BoundShader final : public BoundMaterial
+{
+public:
+    BoundShader(std::shared_ptr<void> library, const osl::ShaderPlugin& plugin,
+                const std::string& file, const std::vector<ParameterValue>& values)
+        : _library(std::move(library)), _shader(plugin, file, values)
+    {}
+    GridMaterial grid() override { wrong_host("osl"); }
+    PointMaterial point() override { wrong_host("osl"); }
+    OslMaterial osl() override { return {&_shader}; }
+
+private:
+    std::shared_ptr<void> _library;
+    PluginShader _shader;
+};
+
 }  // namespace
 
 PluginMaterial load_plugin(const std::string& file, const std::vector<std::string>& settings)
@@ -208,8 +252,17 @@ PluginMaterial load_plugin(const std::string& file, const std::vector<std::strin
         return {Host::clarisse, module->name,
                 std::make_unique<BoundModule>(library, *module, file, values)};
     }
+    if (void* f = function(REGAIN_SHADER_PLUGIN))
+    {
+        const auto* plugin = reinterpret_cast<osl::ShaderPluginFunction>(f)();
+        require_usable(file, plugin);
+        const auto values = values_of(file, plugin->parameters, plugin->parameter_count, settings);
+        return {Host::osl, plugin->name,
+                std::make_unique<BoundShader>(library, *plugin, file, values)};
+    }
     fail(file, "it exports neither " REGAIN_BXDF_PLUGIN " nor " REGAIN_MATERIAL_MODULE
-               "; see plugin.h of the two adapters (in C++ they have to be extern \"C\")");
+               " nor " REGAIN_SHADER_PLUGIN
+               "; see plugin.h of the adapters (in C++ they have to be extern \"C\")");
 }
 
 }  // namespace regain::tools::preview

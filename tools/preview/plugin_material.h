@@ -21,7 +21,7 @@ struct PluginMaterial
     std::unique_ptr<BoundMaterial> material;
 };
 
-/// Loads regain/renderman/plugin.h's or regain/clarisse/plugin.h's kind of plug-in. `settings` are
+/// Loads a plug-in as plugin.h of an adapter describes it. `settings` are
 /// NAME=NUMBER or NAME=R,G,B; what is not set is as the plug-in has it. BadInput, which names the
 /// file or the setting and says what is wrong with it: not there, no shared object, no plug-in, one
 /// of another version; a parameter that there is none of, or a value out of its range.

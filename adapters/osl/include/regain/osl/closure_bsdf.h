@@ -10,20 +10,10 @@
 #include <regain/closures/point_lobe.h>
 #include <regain/osl/composite_bsdf.h>
 #include <regain/osl/problems.h>
+#include <regain/osl/shader_globals.h>
 
 REGAIN_NAMESPACE_BEGIN
 namespace osl {
-
-/// Of OSL's shader globals what closures need, in world space. As renderers hand them to shaders:
-/// N and Ng are unit and face the viewer; `backfacing` where the surface itself faces away, so that
-/// an interface is seen from inside.
-struct ShaderGlobals
-{
-    Imath::V3f I{0.0f, 0.0f, -1.0f};  ///< unit, towards the surface; wo is -I
-    Imath::V3f N{0.0f, 0.0f, 1.0f}, Ng{0.0f, 0.0f, 1.0f};
-    Imath::V3f dPdu{1.0f, 0.0f, 0.0f};  ///< any length; stands in for a U of no length
-    bool backfacing = false;
-};
 
 /// The samples of a closure that have a density, or those that have none.
 template <class Closure>

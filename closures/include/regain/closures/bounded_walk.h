@@ -386,9 +386,11 @@ public:
             const auto join = [&](int n, const Color& throughput) {
                 const detail::FacetReflection<Real> facet(distribution, -ray.d, end);
                 const Real R = detail::tempered_ratio(ratio * facet.quarter_D, n);
-                const Real value = facet.quarter_D / ray.area *
-                                   phases.escape_probability(end.z, end_stay) /
-                                   (p_start + p_end * R);
+                // Where the walk has ended it may be anything; no colour times it may be NaN.
+                const Real value = detail::min(facet.quarter_D / ray.area *
+                                                   phases.escape_probability(end.z, end_stay) /
+                                                   (p_start + p_end * R),
+                                               detail::constant<Real>(1e20));
                 sum +=
                     detail::select(active, throughput * _closure._fresnel.at(facet.cosine) * value,
                                    Color(Real(0)));

@@ -275,7 +275,7 @@ int main(int argc, char** argv)
             report_balance<STD<double>>(
                 "std", "STD " + std::to_string(gamma).substr(0, 4),
                 [=](double x, double y) { return STD<double>(x, y, gamma); });
-        for (const double gamma : {0.3, 1.0, 1.7, 3.0, 8.0})
+        for (const double gamma : {0.1, 0.3, 1.0, 1.7, 3.0, 8.0})
             report_balance<GTR<double>>(
                 "gtr", "GTR " + std::to_string(gamma).substr(0, 3),
                 [=](double x, double y) { return GTR<double>(x, y, gamma); });

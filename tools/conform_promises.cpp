@@ -98,10 +98,10 @@ std::optional<double> anisotropic_error(const ClosureSpec& spec, double mu)
     }
     else if (wider < 0.01 || mu < 0.01)
         return std::nullopt;
-    if (spec.distribution == DistributionKind::gtr &&
-        std::holds_alternative<shaders::Balanced>(spec.method))
-        return 5e-2;
-    return wider > 10 * narrower ? 2e-2 : 1e-2;
+    if (wider > 10 * narrower) return 2e-2;
+    const bool balanced_gtr = spec.distribution == DistributionKind::gtr &&
+                              std::holds_alternative<shaders::Balanced>(spec.method);
+    return balanced_gtr ? 1.2e-2 : 1e-2;
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace luts {
 namespace {
 
 // What is solved for is the change, of which few nodes see everything.
-constexpr int cosine_cells = 16, azimuth_cells = 8, most_rounds = 500;
+constexpr int cosine_cells = 24, azimuth_cells = 8, most_rounds = 500;
 constexpr std::size_t columns = azimuth_cells + 1, size = (cosine_cells + 1) * columns;
 
 const double half_pi = 0.5 * std::acos(-1.0);

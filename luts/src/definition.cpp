@@ -63,7 +63,7 @@ constexpr AnisotropyNodes gtr_anisotropy{16, 6, 10, 11, 22}, std_anisotropy{16, 
 
 // The same of the balance, which varies more along the cosine.
 constexpr AnisotropyNodes ggx_balance_anisotropy{20, 8, 16, 10, 1},
-    beckmann_balance_anisotropy{20, 8, 20, 10, 1}, gtr_balance_anisotropy{16, 7, 8, 8, 10},
+    beckmann_balance_anisotropy{20, 8, 20, 10, 1}, gtr_balance_anisotropy{22, 10, 10, 12, 24},
     std_balance_anisotropy{16, 7, 14, 7, 7};
 
 // Row 0 is the limit of vanishing alpha at fixed x, which alpha 0 itself does not have.
@@ -324,13 +324,17 @@ Family::Plane Family::balance_plane(const std::vector<double>& xs, const std::ve
     Plane plane;
     const double wider = alpha_at(z), root = 1 - v / detail::balance_ratio_scale;
     const AnisotropicBalance g(distribution, wider, 1 / (root * root), tail_at(w), nodes);
-    for (double y : ys)
+    const double share = std::sqrt(1 / root);
+    for (double place : ys)
+    {
+        const double y = place / (share - (share - 1) * place);
         for (double x : xs)
         {
             const double mu = mu_at(x, g.root_mean_square());
             plane.values.push_back(std::log(g.change(mu, y)));
             plane.promised.push_back(wider >= 5e-3 && g.cosine(mu, y) >= 5e-3);
         }
+    }
     return plane;
 }
 
@@ -500,7 +504,8 @@ Definition Definition::of(const std::string& name)
         info.quantity = rest;
         const Definition balance = Definition::of(d.family.distribution + "_balance");
         info.axis_x = balance.info.axis_x + ", of mu' and R";
-        info.axis_y = "Y^2 / (X^2 + Y^2), Y along the narrower axis";
+        info.axis_y =
+            "s Y^2 / (X^2 + s Y^2), Y along the narrower axis, s = (wider / narrower)^(1/4)";
         info.axis_z = balance.info.axis_y + ", alpha of the wider axis";
         info.axis_4 = "(1 - sqrt(narrower / wider)) / (1 - sqrt(1 / 20))";
         info.axis_5 = balance.info.axis_z;

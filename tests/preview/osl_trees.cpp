@@ -251,6 +251,73 @@ TEST(OslTrees, weights_that_are_no_weights_leave_a_closure_out)
     expect_color(r.bsdf.weight(0), {1, 0, 1e6f}, 0);
 }
 
+// However many there are, their product is a number.
+TEST(OslTrees, products_of_large_weights_stay_finite)
+{
+    Renderer r;
+    const ClosureColor* Ci = r.diffuse(C3f(1), C3f(1e6f));
+    for (int i = 0; i < 20; ++i) Ci = r.nodes.multiply({1e6f, 1e6f, 0}, Ci);
+    EXPECT_EQ(r.flatten(r.layer(Ci, Ci, C3f(1e6f))), 0u);
+    ASSERT_EQ(r.bsdf.size(), 1);
+    expect_color(r.bsdf.weight(0), {1e6f, 1e6f, 0}, 0);
+    ASSERT_TRUE(r.bsdf.prepare(r.wo()));
+    EXPECT_TRUE(std::isfinite(r.bsdf.sample(r.wo(), V3f(0.5f), 0.5f).weight.x));
+}
+
+// Of what a host hands over with them, too.
+TEST(OslTrees, hostile_parameters_and_globals_leave_no_nan)
+{
+    const float inf = std::numeric_limits<float>::infinity();
+    for (const float bad : {nan, inf, -inf, 0.0f, -1.0f, 1e30f})
+    {
+        Renderer r;
+        auto metal = r.metal_params();
+        auto glass = r.glass_params();
+        metal.roughness_x = glass.roughness_y = metal.exponent = glass.ior = bad;
+        metal.f0 = metal.color82 = glass.reflection_tint = C3f(bad);
+        metal.U = glass.N = V3f(bad);
+        metal.gamma = glass.thinfilm_ior = bad;
+        for (const V3f& N : {V3f(0, 0, 1), V3f(bad)})
+        {
+            r.nodes.reset();
+            r.globals.N = r.globals.dPdu = N;
+            r.flatten(r.layer(r.nodes.component(osl::dielectric_id, glass),
+                              r.nodes.component(osl::generalized_schlick_id, metal)));
+            if (!r.bsdf.prepare(r.wo())) FAIL() << bad;
+            for (const float u : {0.0f, 0.5f, 0.999f})
+            {
+                const auto s = r.bsdf.sample(r.wo(), V3f(u), u);
+                const auto e = r.bsdf.eval(r.wo(), V3f(-0.6f, 0, 0.8f));
+                for (const float x : {s.pdf, s.weight.x, s.wi.z, e.pdf, e.weight.x})
+                    EXPECT_TRUE(std::isfinite(x)) << bad;
+            }
+        }
+    }
+}
+
+// What the defaults of a library can be asked for, without shading: sheets, too.
+TEST(OslTrees, a_default_library_knows_every_kind)
+{
+    const Renderer r;
+    const osl::ClosureLibrary library;
+    alignas(16) unsigned char memory[8192];
+    osl::NodePool nodes(memory, sizeof memory);
+    for (const bool thin : {false, true})
+        for (const int tints : {1, 2, 3})
+        {
+            auto p = r.glass_params();
+            p.thin_walled = thin;
+            p.reflection_tint = C3f(float(tints & 1));
+            p.transmission_tint = C3f(float(tints >> 1));
+            osl::ReadComponent read;
+            osl::Problems problems = 0;
+            const auto* c = nodes.component(osl::dielectric_id, p);
+            EXPECT_TRUE(
+                library.read(*static_cast<const osl::ClosureComponent*>(c), read, problems));
+            EXPECT_EQ(problems, 0u) << thin << tints;
+        }
+}
+
 TEST(OslTrees, more_than_fits_is_left_out_and_said)
 {
     Renderer r;

@@ -48,7 +48,8 @@ const ClosureColor* component(const MicrofacetMaterial& m, const osl::ShaderGlob
         p.f0 = C3f(s->F0);
         p.f90 = C3f(s->F90);
         p.exponent = float(s->exponent);
-        p.color82 = C3f(s->F82);
+        // Of 0 alone the parameter means none.
+        p.color82 = s->F82 == shaders::ColorD(0.0) ? C3f(1e-6f) : C3f(s->F82);
         return pool.component(osl::generalized_schlick_id, p);
     }
     if (const auto* s = std::get_if<shaders::InterfaceSurface>(&m.surface))

@@ -97,7 +97,7 @@ inline ShadingFrame<float> frame_of(const ComponentFrame& component, const Shade
     if (!detail::is_direction(N))
     {
         problems |= bad_normal;
-        N = globals.N;
+        N = detail::is_direction(globals.N) ? globals.N : Ng;
     }
     N = N / N.length();
     if (N.dot(Ng) < 0) N = -N;

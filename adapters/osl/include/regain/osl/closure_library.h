@@ -96,16 +96,23 @@ public:
             method_or_best(settings.reflection);
             m.surface = SchlickSurface{};
             method_or_best(settings.reflection);
+            // Glass of a distribution with a tail has tables of single gammas, which are not
+            // shipped.
+            if (has_gamma(d)) continue;
             for (const ScatterMode mode : {ScatterMode::RT, ScatterMode::R, ScatterMode::T})
             {
                 InterfaceSurface i;
                 i.mode = mode;
-                // Tables of tails are baked for distributions of one parameter alone.
-                if (!has_gamma(d)) i.shadowing = TransmissionShadowing::beta;
+                i.shadowing = TransmissionShadowing::beta;
                 m.surface = i;
-                // Those of one gamma are not shipped.
-                if (has_gamma(d)) continue;
                 method_or_best(settings.interface);
+                // A sheet takes gains alone.
+                i.thin_walled = true;
+                m.surface = i;
+                const bool gain =
+                    settings.interface && std::holds_alternative<Method>(*settings.interface);
+                m.method = gain ? *settings.interface : recommended_compensation(m.surface);
+                add(m);
             }
         }
     }
@@ -230,9 +237,10 @@ public:
 
 private:
     using ColorD = shaders::ColorD;
+    using Surface = decltype(shaders::MicrofacetMaterial::surface);
 
-    template <class Surface>
-    static bool plain(const Surface& surface, const Imath::V3f& N, ReadComponent& out)
+    template <class Plain>
+    static bool plain(const Plain& surface, const Imath::V3f& N, ReadComponent& out)
     {
         out.material = shaders::PlainMaterial{surface};
         out.frame.N = N;
@@ -240,14 +248,17 @@ private:
     }
 
     template <class Params>
-    bool microfacets(const Params& p, const decltype(shaders::MicrofacetMaterial::surface)& surface,
-                     ReadComponent& out, Problems& problems) const
+    bool microfacets(const Params& p, const Surface& surface, ReadComponent& out,
+                     Problems& problems, const char* shadowing = nullptr) const
     {
         const shaders::MicrofacetMaterial* kind =
-            find(surface, text(p.distribution), text(p.compensation), nullptr, problems);
+            find(surface, text(p.distribution), text(p.compensation), shadowing, problems);
         if (!kind) return false;
         shaders::MicrofacetMaterial m = *kind;
         m.surface = surface;
+        // The form of transmission is the tables'.
+        if (auto* i = std::get_if<shaders::InterfaceSurface>(&m.surface))
+            i->shadowing = std::get<shaders::InterfaceSurface>(kind->surface).shadowing;
         m.gamma = p.gamma > 0 ? double(p.gamma) : 2;
         m.alpha_x = double(p.roughness_x);
         m.alpha_y = double(p.roughness_y);
@@ -269,20 +280,7 @@ private:
         i.thin_walled = p.thin_walled != 0;
         i.reflection_tint = ColorD(p.reflection_tint);
         i.transmission_tint = ColorD(p.transmission_tint);
-        const shaders::MicrofacetMaterial* kind =
-            find(i, text(p.distribution), text(p.compensation), text(p.transmission_shadowing),
-                 problems);
-        if (!kind) return false;
-        i.shadowing = std::get<shaders::InterfaceSurface>(kind->surface).shadowing;
-        shaders::MicrofacetMaterial m = *kind;
-        m.surface = i;
-        m.gamma = p.gamma > 0 ? double(p.gamma) : 2;
-        m.alpha_x = double(p.roughness_x);
-        m.alpha_y = double(p.roughness_y);
-        out.material = m;
-        out.frame = {p.N, p.U};
-        if (p.thinfilm_thickness > 0) problems |= thin_film;
-        return true;
+        return microfacets(p, i, out, problems, text(p.transmission_shadowing));
     }
 
     const char* text(const StringParam& s) const
@@ -292,9 +290,9 @@ private:
     }
 
     // The kind that the component asks for; else the one that differs least, which is said.
-    const shaders::MicrofacetMaterial* find(
-        const decltype(shaders::MicrofacetMaterial::surface)& surface, const char* distribution,
-        const char* compensation, const char* shadowing, Problems& problems) const
+    const shaders::MicrofacetMaterial* find(const Surface& surface, const char* distribution,
+                                            const char* compensation, const char* shadowing,
+                                            Problems& problems) const
     {
         const shaders::MicrofacetMaterial* best = nullptr;
         int best_score = -1;
@@ -319,8 +317,7 @@ private:
         return best;
     }
 
-    static bool is_alike(const decltype(shaders::MicrofacetMaterial::surface)& a,
-                         const decltype(shaders::MicrofacetMaterial::surface)& b)
+    static bool is_alike(const Surface& a, const Surface& b)
     {
         if (a.index() != b.index()) return false;
         const auto* one = std::get_if<shaders::InterfaceSurface>(&a);
@@ -328,8 +325,7 @@ private:
         const auto& other = std::get<shaders::InterfaceSurface>(b);
         return one->mode == other.mode && one->thin_walled == other.thin_walled;
     }
-    static bool has_shadowing(const decltype(shaders::MicrofacetMaterial::surface)& surface,
-                              const char* wanted)
+    static bool has_shadowing(const Surface& surface, const char* wanted)
     {
         const auto* i = std::get_if<shaders::InterfaceSurface>(&surface);
         if (!i) return true;

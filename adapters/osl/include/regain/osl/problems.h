@@ -49,9 +49,10 @@ inline const char* message(Problem problem)
         case unknown_closure:
             return "a closure has an identifier that nobody knows; it is left out";
         case unknown_distribution:
-            return "a closure has a distribution that is unknown or has no tables; ggx is taken";
+            return "a closure has a distribution that is unknown or has no tables; another is "
+                   "taken";
         case unknown_compensation:
-            return "a closure has a compensation that is unknown or has no tables; the default is "
+            return "a closure has a compensation that is unknown or has no tables; another is "
                    "taken";
         case no_tables:
             return "a closure is of a kind that no tables are bound for; it is left out";

@@ -6,10 +6,11 @@
 ///
 ///     Ci = sum_k w_k f_k,   w_k the product of all weights on the way from the root
 ///
-/// a component's own `w` among them, that of a layer, too. Below the top of a layer the weight is
-/// multiplied by 1 - E_top per channel, E_top being what the top's components reflect and let
-/// through towards wo, each by its own weight, compensation included: a compensated top takes from
-/// its base what it really keeps, and a white one over a white base returns 1.
+/// a component's own `w` among them, that of a layer, too; no product is more than 1e6. Below the
+/// top of a layer the weight is multiplied by 1 - E_top per channel, E_top being what the top's
+/// components reflect and let through towards wo, each by its own weight, compensation included: a
+/// compensated top takes from its base what it really keeps, and a white one over a white base
+/// returns 1.
 ///
 /// Memory is fixed and trees of any shape end: chains of sums and products take no depth where they
 /// go on at closureA, as shaders build them; layers and the other side of sums may be in one
@@ -21,6 +22,8 @@
 #include <regain/closures/number.h>
 #include <regain/osl/closure_params.h>
 #include <regain/osl/problems.h>
+
+#include <algorithm>
 
 REGAIN_NAMESPACE_BEGIN
 namespace osl {
@@ -60,13 +63,13 @@ private:
             if (node->id == ClosureColor::mul)
             {
                 const auto& m = *static_cast<const ClosureMul*>(node);
-                factor *= clean(m.weight);
+                factor = limited(factor * clean(m.weight));
                 node = m.closure;
             }
             else if (node->id == ClosureColor::add)
             {
                 const auto& sum = *static_cast<const ClosureAdd*>(node);
-                energy += factor * walk(sum.closureB, weight * factor, depth + 1, asked);
+                energy += factor * walk(sum.closureB, limited(weight * factor), depth + 1, asked);
                 node = sum.closureA;
             }
             else if (node->id < 0)
@@ -84,8 +87,8 @@ private:
     Imath::C3f component(const ClosureComponent& c, const Imath::C3f& weight, Imath::C3f factor,
                          int depth, bool asked)
     {
-        factor *= clean({c.w.x, c.w.y, c.w.z});
-        const Imath::C3f whole = weight * factor;
+        factor = limited(factor * clean({c.w.x, c.w.y, c.w.z}));
+        const Imath::C3f whole = limited(weight * factor);
         if (whole == Imath::C3f(0.0f)) return Imath::C3f(0.0f);
         if (c.id != layer_id) return factor * _leaf(c, whole, asked);
 
@@ -96,12 +99,21 @@ private:
         return factor * (top + rest * walk(layer.base, whole * rest, depth + 1, asked));
     }
 
+    static constexpr float most_weight = 1e6f;
+
+    // Of weights that are finite and not negative.
+    static Imath::C3f limited(const Imath::C3f& product)
+    {
+        Imath::C3f c;
+        for (int i = 0; i < 3; ++i) c[i] = std::min(product[i], most_weight);
+        return c;
+    }
     Imath::C3f clean(const Imath::C3f& weight)
     {
         Imath::C3f c;
         for (int i = 0; i < 3; ++i)
         {
-            c[i] = regain::detail::sanitised(weight[i], 0, 1e6, 0);
+            c[i] = regain::detail::sanitised(weight[i], 0, most_weight, 0);
             if (!(weight[i] >= 0)) _problems |= bad_weight;
         }
         return c;

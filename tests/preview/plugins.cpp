@@ -114,6 +114,7 @@ TEST(Plugins, a_file_that_is_none_is_refused_by_name)
     expect_refused(text, {}, "cannot be loaded as a shared object");
     std::filesystem::remove(text);
     expect_refused(NO_PLUGIN, {}, "exports neither regain_bxdf_plugin nor regain_material_module");
+    expect_refused(NULL_PLUGIN, {}, "one of its functions is null");
     expect_refused(OLD_PLUGIN, {}, "version 99 of the interface; this host knows 1");
 }
 

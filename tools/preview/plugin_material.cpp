@@ -62,6 +62,12 @@ void require_usable(const std::string& file, const Plugin* plugin)
     if (!plugin->name) fail(file, "it has no name");
 }
 
+void require_functions(const std::string& file, std::initializer_list<bool> there)
+{
+    for (const bool one : there)
+        if (!one) fail(file, "one of its functions is null");
+}
+
 std::string described(const ParameterInfo& p)
 {
     return fmt::format("{} in [{:g}, {:g}]", p.components == 3 ? "R,G,B, each" : "a number",
@@ -241,6 +247,10 @@ PluginMaterial load_plugin(const std::string& file, const std::vector<std::strin
         const auto* plugin = reinterpret_cast<renderman::BxdfPluginFunction>(f)();
         require_usable(file, plugin);
         const auto values = values_of(file, plugin->parameters, plugin->parameter_count, settings);
+        require_functions(
+            file,
+            {plugin->create_factory != nullptr, plugin->destroy_factory != nullptr,
+             plugin->create_instance_data != nullptr, plugin->destroy_instance_data != nullptr});
         return {Host::renderman, plugin->name,
                 std::make_unique<BoundBxdf>(library, *plugin, file, values)};
     }
@@ -249,6 +259,11 @@ PluginMaterial load_plugin(const std::string& file, const std::vector<std::strin
         const auto* module = reinterpret_cast<clarisse::MaterialModuleFunction>(f)();
         require_usable(file, module);
         const auto values = values_of(file, module->attributes, module->attribute_count, settings);
+        require_functions(file,
+                          {module->create_object != nullptr, module->destroy_object != nullptr,
+                           module->callbacks.create_module_data != nullptr,
+                           module->callbacks.destroy_module_data != nullptr,
+                           module->callbacks.create_lobes != nullptr});
         return {Host::clarisse, module->name,
                 std::make_unique<BoundModule>(library, *module, file, values)};
     }
@@ -257,6 +272,8 @@ PluginMaterial load_plugin(const std::string& file, const std::vector<std::strin
         const auto* plugin = reinterpret_cast<osl::ShaderPluginFunction>(f)();
         require_usable(file, plugin);
         const auto values = values_of(file, plugin->parameters, plugin->parameter_count, settings);
+        require_functions(file, {plugin->create_shader != nullptr,
+                                 plugin->destroy_shader != nullptr, plugin->shade != nullptr});
         return {Host::osl, plugin->name,
                 std::make_unique<BoundShader>(library, *plugin, file, values)};
     }

@@ -66,7 +66,7 @@ void* create_object(const ParameterValue* values, const char** error)
 
 }  // namespace
 
-extern "C" REGAIN_MODULE_EXPORT const regain::clarisse::MaterialModule* regain_material_module()
+extern "C" REGAIN_PLUGIN_EXPORT const regain::clarisse::MaterialModule* regain_material_module()
 {
     static const clarisse::MaterialModule module{
         clarisse::MaterialModule::current,

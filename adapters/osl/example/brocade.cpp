@@ -76,7 +76,7 @@ void* create_shader(const ParameterValue* v, const char** error)
 
 }  // namespace
 
-extern "C" REGAIN_SHADER_EXPORT const regain::osl::ShaderPlugin* regain_shader_plugin()
+extern "C" REGAIN_PLUGIN_EXPORT const regain::osl::ShaderPlugin* regain_shader_plugin()
 {
     static constexpr osl::ShaderPlugin plugin{
         osl::ShaderPlugin::current,

@@ -9,6 +9,13 @@
 
 #include <regain/closures/version.h>
 
+/// Before a function that a host looks up by its name.
+#if defined(_WIN32)
+#define REGAIN_PLUGIN_EXPORT __declspec(dllexport)
+#else
+#define REGAIN_PLUGIN_EXPORT __attribute__((visibility("default")))
+#endif
+
 REGAIN_NAMESPACE_BEGIN
 
 /// A number, or a linear colour of three. A host hands values over that are finite and within

@@ -6,7 +6,7 @@
 /// attributes, registered by a function of the library [on_register_module, the class file], whose
 /// callbacks are a table.
 ///
-///     extern "C" REGAIN_MODULE_EXPORT const regain::clarisse::MaterialModule*
+///     extern "C" REGAIN_PLUGIN_EXPORT const regain::clarisse::MaterialModule*
 ///     regain_material_module();
 ///
 /// The host and the module share the classes of host.h, so both are built with the same compiler
@@ -16,12 +16,6 @@
 
 #include <regain/clarisse/host.h>
 #include <regain/closures/parameter_info.h>
-
-#if defined(_WIN32)
-#define REGAIN_MODULE_EXPORT __declspec(dllexport)
-#else
-#define REGAIN_MODULE_EXPORT __attribute__((visibility("default")))
-#endif
 
 /// The name of the function, for whoever loads it.
 #define REGAIN_MATERIAL_MODULE "regain_material_module"

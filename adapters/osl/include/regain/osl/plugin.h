@@ -5,7 +5,7 @@
 /// A shader as a shared object for the OSL-shaped host, in the place of a compiled .oso: it leaves
 /// a tree of closures in Ci, and knows nothing of what a renderer makes of them.
 ///
-///     extern "C" REGAIN_SHADER_EXPORT const regain::osl::ShaderPlugin* regain_shader_plugin();
+///     extern "C" REGAIN_PLUGIN_EXPORT const regain::osl::ShaderPlugin* regain_shader_plugin();
 ///
 /// The host and the plug-in share nodes, parameters and globals, so both are built with the same
 /// version of this library, which the struct says and a host checks before it calls anything.
@@ -15,12 +15,6 @@
 #include <regain/closures/parameter_info.h>
 #include <regain/osl/closure_params.h>
 #include <regain/osl/shader_globals.h>
-
-#if defined(_WIN32)
-#define REGAIN_SHADER_EXPORT __declspec(dllexport)
-#else
-#define REGAIN_SHADER_EXPORT __attribute__((visibility("default")))
-#endif
 
 /// The name of the function, for whoever loads it.
 #define REGAIN_SHADER_PLUGIN "regain_shader_plugin"

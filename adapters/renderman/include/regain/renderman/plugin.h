@@ -16,12 +16,6 @@
 #include <regain/closures/parameter_info.h>
 #include <regain/renderman/host.h>
 
-#if defined(_WIN32)
-#define REGAIN_PLUGIN_EXPORT __declspec(dllexport)
-#else
-#define REGAIN_PLUGIN_EXPORT __attribute__((visibility("default")))
-#endif
-
 /// The name of the function, for whoever loads it.
 #define REGAIN_BXDF_PLUGIN "regain_bxdf_plugin"
 

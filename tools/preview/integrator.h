@@ -91,6 +91,23 @@ struct PathState
     bool alone = true;    ///< next-event estimation could not have found this light: no weighting
 };
 
+/// Adds trace(path, sampler), along its camera ray, for samples [first, first + count) of every
+/// pixel of the tile.
+template <class Trace>
+void add_paths(const World& world, const Tile& tile, int first, int count, Film& film,
+               const Trace& trace)
+{
+    for (int y = tile.y0; y < tile.y1; ++y)
+        for (int x = tile.x0; x < tile.x1; ++x)
+            for (int s = first; s < first + count; ++s)
+            {
+                const Sampler sampler(x, y, s, world.seed);
+                PathState path;
+                path.ray = camera_ray(world, x, y, sampler);
+                film.add(x, y, trace(path, sampler));
+            }
+}
+
 /// For a closure's answer that is no number: the film counts the sample, whatever else it holds.
 inline void mark_faulty(PathState& path)
 {

@@ -5,9 +5,11 @@
 
 #include "osl_shader.h"
 
+#include <fmt/format.h>
+
+#include <cstdio>
 #include <memory>
 #include <stdexcept>
-#include <string>
 
 namespace regain::tools::preview {
 
@@ -28,17 +30,6 @@ osl::ShaderGlobals globals_at(const Hit& hit, const V3f& wo)
     sg.Ng = sg.backfacing ? -hit.geometric_normal : hit.geometric_normal;
     sg.dPdu = hit.tangent;
     return sg;
-}
-
-// A tint that is 1 at 82 degrees, films, what stands in for another: known, and said elsewhere.
-constexpr osl::Problems harmless = osl::subsurface_stand_in;
-
-void require_none(osl::Problems problems)
-{
-    for (int k = 0; k < osl::problem_kinds; ++k)
-        if (problems & ~harmless & (1u << k))
-            throw std::runtime_error(std::string("the OSL-shaped host: ") +
-                                     osl::message(static_cast<osl::Problem>(1u << k)));
 }
 
 }  // namespace
@@ -66,15 +57,9 @@ OslIntegrator::OslIntegrator(const World& world, std::vector<OslMaterial> materi
 void OslIntegrator::render(const Tile& tile, int first, int count, Film& film) const
 {
     const auto workspace = std::make_unique<Workspace>();
-    for (int y = tile.y0; y < tile.y1; ++y)
-        for (int x = tile.x0; x < tile.x1; ++x)
-            for (int s = first; s < first + count; ++s)
-            {
-                const Sampler sampler(x, y, s, _world.seed);
-                PathState path;
-                path.ray = camera_ray(_world, x, y, sampler);
-                film.add(x, y, trace(path, sampler, *workspace));
-            }
+    add_paths(_world, tile, first, count, film, [&](const PathState& path, const Sampler& sampler) {
+        return trace(path, sampler, *workspace);
+    });
 }
 
 C3f OslIntegrator::trace(PathState path, const Sampler& sampler, Workspace& workspace) const
@@ -99,6 +84,16 @@ C3f OslIntegrator::trace(PathState path, const Sampler& sampler, Workspace& work
     return path.radiance;
 }
 
+/// Each problem once, by whichever thread meets it first.
+void OslIntegrator::say(osl::Problems problems) const
+{
+    if ((problems & ~_said.load(std::memory_order_relaxed)) == 0) return;
+    const osl::Problems fresh = problems & ~_said.fetch_or(problems);
+    for (int k = 0; k < osl::problem_kinds; ++k)
+        if (fresh & (1u << k))
+            fmt::print(stderr, "regain: {}\n", osl::message(static_cast<osl::Problem>(1u << k)));
+}
+
 /// False where an albedo is no number.
 bool OslIntegrator::shade(const Hit& hit, const V3f& wo, Surface& surface) const
 {
@@ -109,7 +104,7 @@ bool OslIntegrator::shade(const Hit& hit, const V3f& wo, Surface& surface) const
     const osl::ClosureColor* Ci = shader.shade(surface.globals, surface.nodes);
     if (surface.nodes.full())
         throw std::runtime_error("a material's closures do not fit into the pool of nodes");
-    require_none(shader.flatten(Ci, surface.globals, surface.bsdf));
+    say(shader.flatten(Ci, surface.globals, surface.bsdf));
     return surface.bsdf.prepare(wo);
 }
 

@@ -10,6 +10,9 @@
 
 #include "integrator.h"
 
+#include <regain/osl/problems.h>
+
+#include <atomic>
 #include <vector>
 
 namespace regain::tools::preview {
@@ -27,7 +30,7 @@ public:
     /// `materials` by the material index of the scene's placements.
     OslIntegrator(const World&, std::vector<OslMaterial> materials);
 
-    /// Throws std::runtime_error where a material is not rendered as asked.
+    /// What of a material is not rendered as asked is said on standard error, once.
     void render(const Tile&, int first, int count, Film&) const override;
 
 private:
@@ -38,10 +41,12 @@ private:
     Next bounce(PathState&, const Hit&, const Sampler&, int bounce, Workspace&) const;
     struct Surface;
     bool shade(const Hit&, const Imath::V3f& wo, Surface&) const;
+    void say(osl::Problems) const;
 
     World _world;
     std::vector<OslMaterial> _materials;
     bool _some_let_by = false;
+    mutable std::atomic<osl::Problems> _said{0};
 };
 
 }  // namespace regain::tools::preview

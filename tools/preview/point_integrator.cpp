@@ -115,15 +115,9 @@ void PointIntegrator::release()
 void PointIntegrator::render(const Tile& tile, int first, int count, Film& film) const
 {
     const auto workspace = std::make_unique<Workspace>();
-    for (int y = tile.y0; y < tile.y1; ++y)
-        for (int x = tile.x0; x < tile.x1; ++x)
-            for (int s = first; s < first + count; ++s)
-            {
-                const Sampler sampler(x, y, s, _world.seed);
-                PathState path;
-                path.ray = camera_ray(_world, x, y, sampler);
-                film.add(x, y, trace(path, sampler, *workspace));
-            }
+    add_paths(_world, tile, first, count, film, [&](const PathState& path, const Sampler& sampler) {
+        return trace(path, sampler, *workspace);
+    });
 }
 
 C3f PointIntegrator::trace(PathState path, const Sampler& sampler, Workspace& workspace) const

@@ -6,7 +6,7 @@
 
 #include "../support/allocations.h"
 #include "doubles.h"
-#include "preview/osl_shader.h"
+#include "osl_renderer.h"
 
 #include <regain/osl/registration.h>
 
@@ -22,112 +22,10 @@ namespace regain::tools::preview { namespace {
 using Imath::C3f;
 using Imath::V3f;
 using osl::ClosureColor;
-using shaders::ClosureTree;
+using Renderer = doubles::OslRenderer;
 using shaders::ColorD;
-using shaders::MicrofacetMaterial;
 
-const float pi = std::acos(-1.0f), nan = std::numeric_limits<float>::quiet_NaN();
-
-MicrofacetMaterial metal(Method method = Method::turquin, double alpha = 0.6)
-{
-    MicrofacetMaterial m;
-    m.surface = shaders::SchlickSurface{};
-    m.alpha_x = m.alpha_y = alpha;
-    m.method = method;
-    return m;
-}
-
-MicrofacetMaterial glass(ScatterMode mode)
-{
-    MicrofacetMaterial m;
-    shaders::InterfaceSurface i;
-    i.mode = mode;
-    m.surface = i;
-    m.alpha_x = m.alpha_y = 0.3;
-    return m;
-}
-
-// A library with tables for white metal, glass and a coat, and room for a tree and its closures.
-struct Renderer
-{
-    explicit Renderer(Method method = Method::turquin) : shader(kinds(method)) {}
-
-    static ClosureTree kinds(Method method)
-    {
-        ClosureTree all;
-        const auto a = all.lobe(metal(method)), b = all.lobe(glass(ScatterMode::RT)),
-                   c = all.lobe(glass(ScatterMode::R));
-        all.set_root(all.add(a, all.add(b, c)));
-        all.bind_tables(true);
-        return all;
-    }
-
-    osl::Problems flatten(const ClosureColor* Ci)
-    {
-        bsdf.clear();
-        return shader.flatten(Ci, globals, bsdf);
-    }
-    V3f wo() const { return -globals.I; }
-
-    const ClosureColor* diffuse(const C3f& albedo = C3f(0.5f), const C3f& w = C3f(1.0f))
-    {
-        osl::OrenNayarDiffuseParams p;
-        p.N = globals.N;
-        p.albedo = albedo;
-        p.energy_compensation = 1;
-        return nodes.component(osl::oren_nayar_diffuse_id, p, w);
-    }
-    osl::GeneralizedSchlickParams metal_params() const
-    {
-        osl::GeneralizedSchlickParams p;
-        p.N = globals.N;
-        p.U = globals.dPdu;
-        p.roughness_x = p.roughness_y = 0.6f;
-        return p;
-    }
-    osl::DielectricParams glass_params() const
-    {
-        osl::DielectricParams p;
-        p.N = globals.N;
-        p.U = globals.dPdu;
-        p.roughness_x = p.roughness_y = 0.3f;
-        return p;
-    }
-    const ClosureColor* coat()
-    {
-        auto p = glass_params();
-        p.transmission_tint = C3f(0.0f);
-        return nodes.component(osl::dielectric_id, p);
-    }
-    const ClosureColor* layer(const ClosureColor* top, const ClosureColor* base,
-                              const C3f& w = C3f(1.0f))
-    {
-        return nodes.component(osl::layer_id, osl::LayerParams{top, base}, w);
-    }
-
-    // Sum of what leaves, by uniform cells of both hemispheres through eval.
-    C3f energy() const
-    {
-        constexpr int rows = 200, columns = 100;
-        C3f sum(0.0f);
-        for (int i = 0; i < rows; ++i)
-            for (int j = 0; j < columns; ++j)
-            {
-                const float z = 2 * (float(i) + 0.5f) / rows - 1, s = std::sqrt(1 - z * z),
-                            phi = 2 * pi * (float(j) + 0.5f) / columns;
-                const auto e = bsdf.eval(wo(), {s * std::cos(phi), s * std::sin(phi), z});
-                sum += e.weight * e.pdf;
-            }
-        return sum * (4 * pi / (rows * columns));
-    }
-
-    alignas(16) unsigned char memory[64 * 1024];
-    osl::NodePool nodes{memory, sizeof memory};
-    osl::ShaderGlobals globals{V3f(-0.6f, 0, -0.8f), V3f(0, 0, 1), V3f(0, 0, 1), V3f(1, 0, 0),
-                               false};
-    TreeShader shader;
-    osl::CompositeBsdf bsdf;
-};
+const float nan = std::numeric_limits<float>::quiet_NaN();
 
 void expect_color(const C3f& a, const C3f& b, float tolerance)
 {

@@ -31,7 +31,7 @@ using Names = std::vector<std::string>;
 
 constexpr const char* help_footer = R"help(
 TABLE is DISTRIBUTION_QUANTITY: ggx, beckmann, gtr or std; E_ss, E_avg, falloff, dip, balance,
-balance_anisotropy, q_ms, mu_ms, spread, forward or tilt, and of gtr and std anisotropy. Those of dielectrics are
+anisotropy, balance_anisotropy, q_ms, mu_ms, spread, forward or tilt. Those of dielectrics are
 DISTRIBUTION_QUANTITY_SHADOWING_SIDE: E_S or R_share; correlated or beta; outside or inside, and
 DISTRIBUTION_R_later_SIDE; there gtr and std take one gamma, gtr_1.3_E_S_beta_inside. Anisotropic
 glass of ggx and beckmann has DISTRIBUTION_anisotropy_SHADOWING_SIDE. Without names those of ggx are

@@ -297,9 +297,9 @@ std::vector<std::string> shipped_tables()
         for (const char* quantity : {"E_ss", "falloff", "dip", "E_avg", "balance", "q_ms", "mu_ms",
                                      "spread", "forward", "tilt"})
             names.push_back(std::string(distribution) + "_" + quantity);
-    append(names, {"gtr_anisotropy", "std_anisotropy"});
-    for (const char* distribution : {"ggx", "beckmann", "gtr", "std"})
-        names.push_back(std::string(distribution) + "_balance_anisotropy");
+    for (const char* quantity : {"anisotropy", "balance_anisotropy"})
+        for (const char* distribution : {"ggx", "beckmann", "gtr", "std"})
+            names.push_back(std::string(distribution) + "_" + quantity);
     append(names, dielectric_table_names("ggx"));
     append(names, dielectric_table_names("beckmann"));
     append(names, later_split_table_names("ggx"));

@@ -59,7 +59,8 @@ struct AnisotropyNodes
 {
     int cosines, azimuths, widths, ratios, tails;
 };
-constexpr AnisotropyNodes gtr_anisotropy{16, 6, 10, 11, 22}, std_anisotropy{16, 6, 14, 8, 12};
+constexpr AnisotropyNodes ggx_anisotropy{24, 6, 12, 9, 1}, beckmann_anisotropy{20, 6, 18, 9, 1},
+    gtr_anisotropy{16, 6, 10, 11, 22}, std_anisotropy{16, 6, 14, 8, 12};
 
 // The same of the balance, which varies more along the cosine.
 constexpr AnisotropyNodes ggx_balance_anisotropy{20, 8, 16, 10, 1},
@@ -153,8 +154,7 @@ bool is_tailed(const std::string& distribution)
     throw std::invalid_argument(
         "no table is called '" + name + "'" + why +
         "; there are DISTRIBUTION_QUANTITY with ggx, beckmann, gtr, std and E_ss, E_avg, falloff, "
-        "dip, balance, balance_anisotropy, q_ms, mu_ms, spread, forward, tilt, of gtr and std "
-        "anisotropy, and "
+        "dip, balance, anisotropy, balance_anisotropy, q_ms, mu_ms, spread, forward, tilt, and "
         "DISTRIBUTION_QUANTITY_SHADOWING_SIDE with E_S, R_share; correlated, beta; outside, "
         "inside, and DISTRIBUTION_R_later_SIDE; in the latter two gtr and std take their gamma: "
         "gtr_1.3_E_S_beta_inside; and DISTRIBUTION_anisotropy_SHADOWING_SIDE with ggx, beckmann");
@@ -305,7 +305,9 @@ Family::Plane Family::plane(const std::vector<double>& xs, const std::vector<dou
     for (double x : xs)
     {
         // At mu = 0 there is no lobe; close by is its limit.
-        mu.push_back(mu_of_tail_cosine(std::max(std::sqrt(x), 0.02), lobe.root_mean_square()));
+        const double near = std::max(x, 4e-4), R = lobe.root_mean_square();
+        mu.push_back(has_tail_axis() ? mu_of_tail_cosine(std::sqrt(near), R)
+                                     : mu_of_plain_cosine(near, R));
         isotropic.push_back(lobe.isotropic(mu.back(), nodes));
     }
     for (double y : ys)
@@ -520,10 +522,12 @@ Definition Definition::of(const std::string& name)
         d.highest = info.offset + 65535 * info.scale;
         return d;
     }
-    if (tailed && rest == "anisotropy")
+    if (rest == "anisotropy")
     {
-        const bool gtr = d.family.distribution == "gtr";
-        const AnisotropyNodes& n = gtr ? gtr_anisotropy : std_anisotropy;
+        const AnisotropyNodes& n = d.family.distribution == "ggx"        ? ggx_anisotropy
+                                   : d.family.distribution == "beckmann" ? beckmann_anisotropy
+                                   : d.family.distribution == "gtr"      ? gtr_anisotropy
+                                                                         : std_anisotropy;
         d.family.kind = Family::Kind::anisotropy;
         d.fitted = true;
         d.value = first;
@@ -534,13 +538,14 @@ Definition Definition::of(const std::string& name)
         info.length_4 = n.ratios;
         info.length_5 = n.tails;
         info.quantity = rest;
-        info.axis_x =
-            "(3/4 (1 + ln((k + s) / (1 + s)) / ln(1 / k)) + 1/4 s / (1 + s))^2, "
-            "s = R z / |(X, Y)|, k = 0.004 sqrt(R)";
+        info.axis_x = tailed ? "(3/4 (1 + ln((k + s) / (1 + s)) / ln(1 / k)) + 1/4 s / (1 + s))^2, "
+                               "s = R z / |(X, Y)|, k = 0.004 sqrt(R)"
+                             : "mu' / (mu' + R (1 - mu'))";
         info.axis_y = "8 Y^2 / (5 X^2 + 8 Y^2), Y along the narrower axis";
-        info.axis_z = info.distribution + "_width(alpha of the wider axis)";
+        info.axis_z =
+            (tailed ? info.distribution + "_width" : "sqrt") + "(alpha of the wider axis)";
         info.axis_4 = "ln(1 + ln(wider / narrower) / 3) / ln(1 + ln(20) / 3)";
-        info.axis_5 = info.distribution + "_tail(gamma)";
+        info.axis_5 = tailed ? info.distribution + "_tail(gamma)" : "";
         info.transform = "ln";
         info.method = "Gauss-Legendre over slopes, nodes levelled for the least largest error";
         info.error_kind = "relative";

@@ -23,7 +23,7 @@ struct Family
         later,               // q_ms, mu_ms
         shape,               // spread, forward, tilt
         split,               // R_later
-        anisotropy,          // anisotropy, over five axes
+        anisotropy,          // anisotropy, over four or five axes
         balance_anisotropy,  // of balance, over four or five axes
         glass_anisotropy,    // of dielectrics: see dielectric_anisotropy.h
         dielectric           // E^R, correlated E^T, E^T in the beta form, w F(mu)

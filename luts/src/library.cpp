@@ -193,7 +193,6 @@ void add_balance_anisotropy(MicrofacetTables& tables, const std::string& distrib
 
 void add_anisotropy(MicrofacetTables& tables, const std::string& distribution)
 {
-    if (distribution == "ggx" || distribution == "beckmann") return;
     tables.anisotropy = loaded_grid(distribution + "_anisotropy");
 }
 

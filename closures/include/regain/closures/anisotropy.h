@@ -30,10 +30,11 @@
 /// 0 of Beckmann, 1 of GGX, 1 / (gamma - 1) of STD, which lies between these and beyond. GTR is no
 /// stretched isotropic law of the same alpha, and takes GGX's if it has nothing better.
 ///
-/// Better is the table `anisotropy` of MicrofacetTables, for the distributions with a tail. With it
+/// Better is the table `anisotropy` of MicrofacetTables. With it
 ///
 ///   E_ss(w; ax, ay) = E_ss(mu'; R) exp(c),    a = R above,  c over
-///     the square of the cosine axis of table.h, at mu' and R
+///     mu' / (mu' + R (1 - mu')); of the distributions with a tail the square of the cosine axis of
+///       table.h, at mu' and R
 ///     8 X^2 / (8 X^2 + 5 Y^2), if x is the narrower axis
 ///     the width axis, at the wider of both
 ///     ln(1 + l / 3) / ln(1 + ln(20) / 3), l = ln(wider / narrower); at most 1
@@ -152,7 +153,6 @@ public:
             _c[i] = R * (k(0) + R * (k(1) + R * k(2)));
         }
         _d = (_x - _y) * (_x + _y) / (_x * _x + _y * _y);
-        if (!this->has_tail()) return;
         const Real wider = detail::max(_x, _y), narrower = detail::min(_x, _y);
         _width = this->width_of(wider);
         _ratio = detail::ratio_coordinate<Real>(wider / narrower);
@@ -198,7 +198,7 @@ public:
     Real albedo(const MicrofacetTables& tables, const Vec3<Real>& w) const
     {
         if (_isotropic) return tables.albedo(*this, w.z);
-        if (tables.anisotropy && this->has_tail()) return corrected_albedo(tables, w);
+        if (tables.anisotropy) return corrected_albedo(tables, w);
         const Place p = place(w);
         return tables.albedo(p.axes, p.mu);
     }
@@ -241,10 +241,17 @@ private:
         const Real narrower = Real(8) * detail::select(x_is_narrower, X2, Y2),
                    wider = Real(5) * detail::select(x_is_narrower, Y2, X2);
         const Real y = narrower / detail::max(narrower + wider, detail::constant<Real>(1e-36));
-        const Real x = this->cosine(mu);
-        const Real at[] = {x * x, y, _width, _ratio, this->tail()};
+        const Real at[] = {along_cosine(mu), y, _width, _ratio, this->tail()};
         return detail::min(tables.albedo(*this, mu) * detail::exp(tables.anisotropy->at(at)),
                            Real(1));
+    }
+
+    // Coordinate of mu' along the first axis of that table.
+    Real along_cosine(const Real& mu) const
+    {
+        if (!this->has_tail()) return plain_cosine(mu, this->alpha());
+        const Real x = this->cosine(mu);
+        return x * x;
     }
 
     // Cosine of a direction whose tangent, squared, is tangential / z^2.

@@ -216,8 +216,7 @@ struct MicrofacetTables
     bool logarithmic = false;
     /// Formulas in place of all tables, which are then not read: see analytic_tables.h.
     const MicrofacetFits* fits = nullptr;
-    /// What anisotropic lobes of a distribution with a tail have besides: see anisotropy.h. Others
-    /// do not read it.
+    /// What anisotropic lobes have besides: see anisotropy.h. Without it they do with a formula.
     const GridView<5>* anisotropy = nullptr;
     /// What those of any distribution have besides `balance`: see anisotropic_balance.h.
     const GridView<5>* balance_anisotropy = nullptr;

@@ -7,8 +7,7 @@
 /// Names of tables are
 ///     DISTRIBUTION_QUANTITY                   ggx, beckmann, gtr, std; E_ss, E_avg, falloff, dip,
 ///                                             balance, q_ms, mu_ms, spread, forward, tilt; over
-///                                             four or five axes balance_anisotropy, and of gtr
-///                                             and std anisotropy
+///                                             four or five axes anisotropy, balance_anisotropy
 ///     DISTRIBUTION_QUANTITY_SHADOWING_SIDE    E_S, R_share; correlated, beta; outside, inside
 ///     DISTRIBUTION_QUANTITY_SIDE              R_later; outside, inside
 ///     DISTRIBUTION_anisotropy_SHADOWING_SIDE  of ggx and beckmann: dielectric_anisotropy.h

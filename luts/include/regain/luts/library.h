@@ -50,8 +50,8 @@ REGAIN_LUTS_API void add_balance(MicrofacetTables& tables, const std::string& di
 REGAIN_LUTS_API void add_balance_anisotropy(MicrofacetTables& tables,
                                             const std::string& distribution);
 
-/// Adds what the tables of isotropic lobes lack of anisotropic ones: of gtr and std a table, which
-/// no other lobe needs; of ggx and beckmann nothing. Errors as above.
+/// Adds what the tables of isotropic lobes lack of anisotropic ones, in a table that no other lobe
+/// needs. Errors as above.
 REGAIN_LUTS_API void add_anisotropy(MicrofacetTables& tables, const std::string& distribution);
 
 /// Adds spread, forward and tilt, which the method `tail` takes besides; errors as above.

@@ -99,10 +99,7 @@ std::optional<double> anisotropic_error(const ClosureSpec& spec, double mu)
     else if (wider < 0.01 || mu < 0.01)
         return std::nullopt;
     if (spec.lobe != Lobe::dielectric && !shaders::has_gamma(spec.distribution)) return 6e-3;
-    if (wider > 10 * narrower) return 2e-2;
-    const bool balanced_gtr = spec.distribution == DistributionKind::gtr &&
-                              std::holds_alternative<shaders::Balanced>(spec.method);
-    return balanced_gtr ? 1.2e-2 : 1e-2;
+    return wider > 10 * narrower ? 2e-2 : 1e-2;
 }
 
 }  // namespace

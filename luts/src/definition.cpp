@@ -64,7 +64,7 @@ constexpr AnisotropyNodes ggx_anisotropy{24, 6, 12, 9, 1}, beckmann_anisotropy{2
 
 // The same of the balance, which varies more along the cosine.
 constexpr AnisotropyNodes ggx_balance_anisotropy{20, 8, 16, 10, 1},
-    beckmann_balance_anisotropy{20, 8, 20, 10, 1}, gtr_balance_anisotropy{22, 10, 10, 12, 24},
+    beckmann_balance_anisotropy{20, 8, 20, 10, 1}, gtr_balance_anisotropy{22, 10, 10, 20, 24},
     std_balance_anisotropy{16, 7, 14, 7, 7};
 
 // Row 0 is the limit of vanishing alpha at fixed x, which alpha 0 itself does not have.

@@ -24,7 +24,7 @@
 /// does g. Whatever c is, g is one function of a direction: what is made of it stays reciprocal.
 ///
 /// Up to 20 : 1 white furnaces are within 3e-3 for GGX, 4e-3 for Beckmann, 1e-2 for STD; for GTR
-/// within 1.2e-2 up to 10 : 1, 2e-2 up to 20 : 1. Without the table c is 0, and they are within 0.1
+/// within 1e-2 up to 10 : 1, 2e-2 up to 20 : 1. Without the table c is 0, and they are within 0.1
 /// for GGX, 0.15 for Beckmann and STD.
 
 #pragma once

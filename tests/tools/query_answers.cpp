@@ -10,6 +10,7 @@
 #include <regain/closures/conductor.h>
 #include <regain/closures/generalized_schlick.h>
 #include <regain/luts/builtin.h>
+#include <regain/luts/library.h>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -60,7 +61,9 @@ auto closure()
         GGX<Real>(Real(0.25), Real(0.5)),
         SchlickFresnel<Real>(Color(Real(0.5), Real(0.25), Real(0.125)),
                              Color(Real(0.5), Real(1), Real(0.75))));
-    return compensated(lobe, Method::turquin, luts::ggx_tables(), Real(0.75));
+    MicrofacetTables tables = luts::ggx_tables();
+    luts::add_anisotropy(tables, "ggx");
+    return compensated(lobe, Method::turquin, tables, Real(0.75));
 }
 
 template <class Real>

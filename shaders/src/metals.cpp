@@ -13,6 +13,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <mutex>
 #include <stdexcept>
 
 REGAIN_NAMESPACE_BEGIN
@@ -24,17 +26,41 @@ struct Metal
 {
     const char* name;
     std::vector<const char*> aliases;
-    detail::SpectralTable table;  // n, k
+    const char* file;  // of n and k
 };
 
-const std::array<Metal, 5>& metals()
+const std::vector<Metal>& metals()
 {
-    static const std::array<Metal, 5> once{
-        Metal{"aluminium", {"aluminum", "Al"}, detail::SpectralTable("Al.csv")},
-        Metal{"brass", {"Cu70Zn30"}, detail::SpectralTable("Cu70Zn30.csv")},
-        Metal{"copper", {"Cu"}, detail::SpectralTable("Cu.csv")},
-        Metal{"gold", {"Au"}, detail::SpectralTable("Au.csv")},
-        Metal{"silver", {"Ag"}, detail::SpectralTable("Ag.csv")}};
+    static const std::vector<Metal> once{Metal{"aluminium", {"aluminum", "Al"}, "Al.csv"},
+                                         Metal{"beryllium", {"Be"}, "Be.csv"},
+                                         Metal{"bismuth", {"Bi"}, "Bi.csv"},
+                                         Metal{"brass", {"Cu70Zn30"}, "Cu70Zn30.csv"},
+                                         Metal{"chromium", {"Cr"}, "Cr.csv"},
+                                         Metal{"cobalt", {"Co"}, "Co.csv"},
+                                         Metal{"copper", {"Cu"}, "Cu.csv"},
+                                         Metal{"electrum", {"Au50Ag50"}, "Au50Ag50.csv"},
+                                         Metal{"gilding-metal", {"Cu90Zn10"}, "Cu90Zn10.csv"},
+                                         Metal{"gold", {"Au"}, "Au.csv"},
+                                         Metal{"gold-silver", {"Au80Ag20"}, "Au80Ag20.csv"},
+                                         Metal{"iridium", {"Ir"}, "Ir.csv"},
+                                         Metal{"iron", {"Fe"}, "Fe.csv"},
+                                         Metal{"lead", {"Pb"}, "Pb.csv"},
+                                         Metal{"manganese", {"Mn"}, "Mn.csv"},
+                                         Metal{"mercury", {"Hg"}, "Hg.csv"},
+                                         Metal{"molybdenum", {"Mo"}, "Mo.csv"},
+                                         Metal{"nickel", {"Ni"}, "Ni.csv"},
+                                         Metal{"niobium", {"Nb"}, "Nb.csv"},
+                                         Metal{"osmium", {"Os"}, "Os.csv"},
+                                         Metal{"palladium", {"Pd"}, "Pd.csv"},
+                                         Metal{"platinum", {"Pt"}, "Pt.csv"},
+                                         Metal{"red-brass", {"Cu85Zn15"}, "Cu85Zn15.csv"},
+                                         Metal{"rhodium", {"Rh"}, "Rh.csv"},
+                                         Metal{"silver", {"Ag"}, "Ag.csv"},
+                                         Metal{"titanium", {"Ti"}, "Ti.csv"},
+                                         Metal{"titanium-nitride", {"TiN"}, "TiN.csv"},
+                                         Metal{"tungsten", {"W"}, "W.csv"},
+                                         Metal{"vanadium", {"V"}, "V.csv"},
+                                         Metal{"zirconium", {"Zr"}, "Zr.csv"}};
     return once;
 }
 
@@ -46,6 +72,17 @@ const Metal& find_metal(const std::string& name)
             return metal;
     throw std::invalid_argument("no metal is called '" + name +
                                 "'; there are: " + detail::listed(metal_names()));
+}
+
+// Read when a metal is first asked for: most programs ask for few.
+const detail::SpectralTable& table_of(const Metal& metal)
+{
+    static std::mutex mutex;
+    static std::map<std::string, detail::SpectralTable> read;
+    const std::lock_guard<std::mutex> lock(mutex);
+    const auto known = read.find(metal.file);
+    if (known != read.end()) return known->second;
+    return read.emplace(metal.file, detail::SpectralTable(metal.file)).first->second;
 }
 
 double checked_cosine(double cos_theta)
@@ -67,12 +104,13 @@ public:
     Colouring(const Metal& metal, const ColorConfig& config)
     {
         C3d white(0.0);
+        const detail::SpectralTable& table = table_of(metal);
         for (std::size_t i = 0; i < count; ++i)
         {
             const int nm = first_wavelength + static_cast<int>(i);
             _weight[i] = config.to_scene_linear_from_xyz_d65(xyz_d65_weight(nm));
-            _n[i] = metal.table.at(0, nm);
-            _k[i] = metal.table.at(1, nm);
+            _n[i] = table.at(0, nm);
+            _k[i] = table.at(1, nm);
             white += _weight[i];
         }
         for (int c = 0; c < 3; ++c)
@@ -100,6 +138,32 @@ private:
     std::array<double, count> _n, _k;
 };
 
+// A metal's colour over the angle. With t = mu^2 the weight 2 mu dmu becomes dt: equal steps in t
+// need no weights.
+struct Curve
+{
+    static constexpr std::size_t steps = 256;
+    std::array<double, steps> cosine;
+    std::array<C3d, steps> color;
+
+    static Curve of(const Colouring& coloured)
+    {
+        Curve curve;
+        for (std::size_t i = 0; i < steps; ++i)
+        {
+            curve.cosine[i] = std::sqrt((static_cast<double>(i) + 0.5) / steps);
+            curve.color[i] = coloured.at(curve.cosine[i]);
+        }
+        return curve;
+    }
+};
+
+// k^2 of an index with that n whose reflectance at normal incidence is F0.
+double squared_extinction(double n, double F0)
+{
+    return (F0 * (n + 1) * (n + 1) - (n - 1) * (n - 1)) / (1 - F0);
+}
+
 }  // namespace
 
 std::vector<std::string> metal_names()
@@ -109,14 +173,14 @@ std::vector<std::string> metal_names()
     return names;
 }
 
-std::string metal_source(const std::string& name) { return find_metal(name).table.head(); }
+std::string metal_source(const std::string& name) { return table_of(find_metal(name)).head(); }
 
 double metal_reflectance(const std::string& name, double cos_theta, double wavelength)
 {
     if (std::isnan(wavelength)) throw std::invalid_argument("the wavelength is NaN");
-    const Metal& metal = find_metal(name);
-    return conductor_reflectance(checked_cosine(cos_theta), metal.table.at(0, wavelength),
-                                 metal.table.at(1, wavelength));
+    const detail::SpectralTable& table = table_of(find_metal(name));
+    return conductor_reflectance(checked_cosine(cos_theta), table.at(0, wavelength),
+                                 table.at(1, wavelength));
 }
 
 C3d metal_reflectance(const std::string& name, double cos_theta, const ColorConfig& config)
@@ -131,21 +195,11 @@ MetalColor metal_color(const std::string& name, const ColorConfig& config)
 
     // The colour at normal incidence is F0, not fitted: it is what most of the lobe shows.
     const C3d normal = coloured.at(1.0);
-    for (int c = 0; c < 3; ++c)
-    {
-        metal.F0[c] = std::clamp(normal[c], 0.0, 1.0);
-        metal.out_of_gamut |= metal.F0[c] != normal[c];
-    }
+    metal.F0 = limited_to_unit(normal);
+    metal.out_of_gamut = metal.F0 != normal;
 
-    // With t = mu^2 the weight 2 mu dmu becomes dt: equal steps in t need no weights.
-    constexpr int steps = 256;
-    std::array<double, steps> cosine;
-    std::array<C3d, steps> curve;
-    for (std::size_t i = 0; i < steps; ++i)
-    {
-        cosine[i] = std::sqrt((static_cast<double>(i) + 0.5) / steps);
-        curve[i] = coloured.at(cosine[i]);
-    }
+    const auto [cosine, curve] = Curve::of(coloured);
+    constexpr std::size_t steps = Curve::steps;
     const auto schlick = [](double F0, double mu) { return F0 + (1 - F0) * std::pow(1 - mu, 5); };
     const auto dip = [](double mu) { return mu * std::pow(1 - mu, 6); };
 
@@ -175,6 +229,52 @@ MetalColor metal_color(const std::string& name, const ColorConfig& config)
     for (int c = 0; c < 3; ++c)
         metal.fit_error = std::max(metal.fit_error, std::sqrt(square_error[c]));
     return metal;
+}
+
+MetalIndex metal_index(const std::string& name, const ColorConfig& config)
+{
+    const Colouring coloured(find_metal(name), config);
+    const C3d normal = limited_to_unit(coloured.at(1.0));
+    const auto [cosine, curve] = Curve::of(coloured);
+    MetalIndex index;
+    for (int c = 0; c < 3; ++c)
+    {
+        const double F0 = std::clamp(normal[c], 1e-4, 0.999), root = std::sqrt(F0);
+        const double least = (1 - F0) / (1 + F0), most = (1 + root) / (1 - root);
+        const auto k_of = [&](double n) {
+            return std::sqrt(std::max(squared_extinction(n, F0), 0.0));
+        };
+        const auto error = [&](double n) {
+            double sum = 0;
+            for (std::size_t i = 0; i < Curve::steps; ++i)
+            {
+                const double e = conductor_reflectance(cosine[i], n, k_of(n)) - curve[i][c];
+                sum += e * e / Curve::steps;
+            }
+            return sum;
+        };
+        // By the logarithm of n, first coarsely, then between the neighbours of the best.
+        double low = std::log(least), high = std::log(most);
+        for (int pass = 0; pass < 6; ++pass)
+        {
+            constexpr int parts = 16;
+            double best = low, best_error = error(std::exp(low));
+            for (int i = 1; i <= parts; ++i)
+            {
+                const double at = low + (high - low) * i / parts, e = error(std::exp(at));
+                if (e >= best_error) continue;
+                best = at;
+                best_error = e;
+            }
+            const double step = (high - low) / parts;
+            low = std::max(std::log(least), best - step);
+            high = std::min(std::log(most), best + step);
+            index.n[c] = std::exp(best);
+        }
+        index.k[c] = k_of(index.n[c]);
+        index.fit_error = std::max(index.fit_error, std::sqrt(error(index.n[c])));
+    }
+    return index;
 }
 
 }  // namespace shaders

@@ -99,7 +99,7 @@ TEST(MetalTints, names_in_any_case_and_by_symbol)
         {"silver", "AG"},          {"copper", "Cu"}};
     for (const auto& [a, b] : same)
         EXPECT_EQ(metal_color(a, config).F0, metal_color(b, config).F0) << b;
-    EXPECT_EQ(metal_names().size(), 5u);
+    EXPECT_EQ(metal_names().size(), 30u);
     EXPECT_TRUE(says(metal_source("gold"), "Johnson"));
 }
 

@@ -45,14 +45,26 @@ struct MetalColor
     double fit_error = 0;
 
     /// True if the colour at normal incidence lies outside [0, 1] in a channel of the working
-    /// space, and F0 was clamped.
+    /// space, and F0 is what limited_to_unit makes of it.
     bool out_of_gamut = false;
 
     /// True if the best F82 was outside [0, 1] in a channel, and was clamped.
     bool F82_limited = false;
 };
 
-/// The metals there are: "aluminium", "brass", "copper", "gold", "silver".
+/// An index of refraction n + ik per channel of the working space.
+///
+/// It is not an average of the metal's index, which is no colour: per channel it is that index
+/// whose reflectance at normal incidence is the colour's, and over the angle least off it, by the
+/// integral that MetalColor says.
+struct MetalIndex
+{
+    C3d n{1.0}, k{0.0};
+    double fit_error = 0;  ///< as of MetalColor
+};
+
+/// The metals and alloys there are, in the order of the alphabet: "aluminium" to "zirconium",
+/// "brass" and "titanium-nitride" among them.
 REGAIN_SHADERS_API std::vector<std::string> metal_names();
 
 /// Where the n and k of a metal come from: the head of the file, one line each.
@@ -74,10 +86,13 @@ REGAIN_SHADERS_API C3d metal_reflectance(const std::string& name, double cos_the
 
 /// The metal's parameters in the config's scene_linear.
 ///
-/// All of these take names as metal_names gives them, in any case of letters, the chemical symbols
-/// Al, Cu, Au, Ag, and "aluminum"; any other name throws std::invalid_argument with the list.
+/// All of these take names as metal_names gives them, in any case of letters, formulas as Al and
+/// Cu70Zn30, and "aluminum"; any other name throws std::invalid_argument with the list.
 /// Configs that cannot colour XYZ throw as ColorConfig::to_scene_linear_from_xyz_d65 says.
 REGAIN_SHADERS_API MetalColor metal_color(const std::string& name, const ColorConfig& config);
+
+/// The same as an index, for conductor_bsdf; errors as above.
+REGAIN_SHADERS_API MetalIndex metal_index(const std::string& name, const ColorConfig& config);
 
 }  // namespace shaders
 REGAIN_NAMESPACE_END

@@ -35,7 +35,7 @@ ClosureTree::Node ClosureTree::add_node(const NodeData& node)
 
 ClosureTree::Node ClosureTree::lobe(const Material& material, const char* name)
 {
-    _all.push_back({material, name ? name : own_name(material)});
+    _all.push_back({material, name ? name : own_name(material), static_cast<Node>(_nodes.size())});
     return add_node({{Kind::lobe, -1, -1, ColorD(1.0)}, _all.size() - 1});
 }
 
@@ -49,6 +49,11 @@ ClosureTree::Node ClosureTree::mix(Node foreground, Node background, double amou
     return add_node({{Kind::mix, foreground, background, ColorD(detail::saturate(amount))}});
 }
 
+ClosureTree::Node ClosureTree::mix(Node foreground, Node background, Parameter amount)
+{
+    return add_node({{Kind::mix, foreground, background, ColorD(0.5), amount.index}});
+}
+
 ClosureTree::Node ClosureTree::add(Node a, Node b)
 {
     return add_node({{Kind::add, a, b, ColorD(1.0)}});
@@ -57,6 +62,11 @@ ClosureTree::Node ClosureTree::add(Node a, Node b)
 ClosureTree::Node ClosureTree::multiply(Node node, const ColorD& weight)
 {
     return add_node({{Kind::multiply, node, -1, clamped(weight)}});
+}
+
+ClosureTree::Node ClosureTree::multiply(Node node, Parameter weight)
+{
+    return add_node({{Kind::multiply, node, -1, ColorD(1.0), weight.index}});
 }
 
 void ClosureTree::set_root(Node root)
@@ -88,14 +98,15 @@ void ClosureTree::flatten(Node node, int depth, const ColorD& passing, bool& any
     if (passing == ColorD(0.0)) return;
 
     const Made n = made(node);
-    const auto weighed = [&](Node part, const ColorD& weight, bool& some) {
-        if (weight == ColorD(1.0)) return flatten(part, depth + 1, passing, some);
+    const auto weighed = [&](Node part, const ColorD& weight, bool rest, bool& some) {
+        if (n.parameter < 0 && weight == ColorD(1.0))
+            return flatten(part, depth + 1, passing, some);
         const Imath::C3f w(weight);
         const std::size_t start = _steps.size();
-        _steps.push_back({StepKind::weigh, 0, w});
+        _steps.push_back({StepKind::weigh, 0, w, n.parameter, rest});
         flatten(part, depth + 1, passing * weight, some);
         if (some)
-            _steps.push_back({StepKind::weighed, 0, w});
+            _steps.push_back({StepKind::weighed, 0, w, n.parameter, rest});
         else
             _steps.resize(start);
     };
@@ -113,11 +124,11 @@ void ClosureTree::flatten(Node node, int depth, const ColorD& passing, bool& any
             _steps.push_back({StepKind::lobe, static_cast<int>(_lobes.size()) - 1});
             any = true;
             break;
-        case Kind::multiply: weighed(n.first, n.weight, any); break;
+        case Kind::multiply: weighed(n.first, n.weight, false, any); break;
         case Kind::mix: {
             bool first = false, second = false;
-            weighed(n.first, n.weight, first);
-            weighed(n.second, ColorD(1.0) - n.weight, second);
+            weighed(n.first, n.weight, false, first);
+            weighed(n.second, ColorD(1.0) - n.weight, true, second);
             together(first, second);
             break;
         }

@@ -59,7 +59,7 @@ public:
     }
 
 private:
-    static Imath::C3f weights(const void* tree, const Imath::C3f* albedo, Imath::C3f* weight)
+    static Imath::C3f weights(const void* tree, int, const Imath::C3f* albedo, Imath::C3f* weight)
     {
         return static_cast<const ClosureTree*>(tree)->lobe_weights(albedo, weight);
     }

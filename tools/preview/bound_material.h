@@ -10,7 +10,7 @@
 #include "osl_integrator.h"
 #include "point_integrator.h"
 
-#include <regain/shaders/closure_tree.h>
+#include <regain/shaders/varying_tree.h>
 
 #include <memory>
 
@@ -29,5 +29,7 @@ public:
 /// Its tables are bound.
 std::unique_ptr<BoundMaterial> bind(const shaders::ClosureTree&);
 std::unique_ptr<BoundMaterial> bind(const shaders::MicrofacetMaterial&);
+/// As a tree where nothing varies.
+std::unique_ptr<BoundMaterial> bind(const shaders::VaryingTree&);
 
 }  // namespace regain::tools::preview

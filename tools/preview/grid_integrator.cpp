@@ -66,6 +66,8 @@ struct GridIntegrator::Workspace
     C3f opacity[kBatch];
     const Sampler* samplers[kBatch];
     V3f view[kBatch], normal[kBatch], geometric_normal[kBatch], tangent[kBatch];
+    V2f st[kBatch];
+    V3f in_object[kBatch];
 
     Environment::Light light[kBatch];
     V3f direction[kBatch];
@@ -74,8 +76,8 @@ struct GridIntegrator::Workspace
     C3f weights[static_cast<std::size_t>(renderman::kMaxActive) * kBatch];
     float forward_pdf[kBatch], reverse_pdf[kBatch], ior[kBatch];
 
-    /// Of these paths where they are.
-    renderman::ShadingContext context(Path* const* paths, int n)
+    /// Of these paths where they are, on a material.
+    renderman::ShadingContext context(const GridMaterial& material, Path* const* paths, int n)
     {
         for (int i = 0; i < n; ++i)
         {
@@ -94,6 +96,14 @@ struct GridIntegrator::Workspace
         c.Tn = tangent;
         c.allocFn = &Arena::allocate_from;
         c.arena = &arena;
+        if (!material.textured) return c;
+        for (int i = 0; i < n; ++i)
+        {
+            st[i] = paths[i]->hit.uv();
+            in_object[i] = paths[i]->hit.in_object;
+        }
+        c.st = st;
+        c.Po = in_object;
         return c;
     }
 
@@ -181,7 +191,7 @@ void GridIntegrator::shade(const GridMaterial& material, Path* const* paths, int
         paths = w.present;
         if (n == 0) return;
     }
-    const renderman::ShadingContext context = w.context(paths, n);
+    const renderman::ShadingContext context = w.context(material, paths, n);
     renderman::Bxdf* bxdf = material.factory->beginScatter(&context, renderman::LobeSet::all(),
                                                            renderman::ShadeMode::Scatter, nullptr,
                                                            material.instance_data);
@@ -226,6 +236,12 @@ C3f GridIntegrator::opacity_at(const Hit& hit, const V3f& view, Workspace& w) co
     context.Tn = &hit.tangent;
     context.allocFn = &Arena::allocate_from;
     context.arena = &w.query_arena;
+    const V2f st = material.textured ? hit.uv() : V2f(0.0f);
+    if (material.textured)
+    {
+        context.st = &st;
+        context.Po = &hit.in_object;
+    }
     C3f result;
     opacity_of(material, context, &result);
     return result;
@@ -235,7 +251,7 @@ C3f GridIntegrator::opacity_at(const Hit& hit, const V3f& view, Workspace& w) co
 int GridIntegrator::keep_present(const GridMaterial& material, Path* const* paths, int n,
                                  int bounce, Workspace& w) const
 {
-    opacity_of(material, w.context(paths, n), w.opacity);
+    opacity_of(material, w.context(material, paths, n), w.opacity);
     int present = 0;
     for (int i = 0; i < n; ++i)
     {

@@ -20,6 +20,7 @@ struct GridMaterial
 {
     renderman::Factory* factory = nullptr;
     void* instance_data = nullptr;
+    bool textured = false;  ///< asks for texture coordinates and positions
 };
 
 class GridIntegrator final : public Integrator

@@ -3,6 +3,7 @@
 
 #include "mesh.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace regain::tools::preview {
@@ -49,6 +50,15 @@ void add_sphere(Mesh& mesh, const V3f& centre, float radius, int segments)
                     std::sin(theta) * std::cos(phi));
         return Vertex{centre + n * radius, n, V3f(std::cos(phi), 0.0f, -std::sin(phi))};
     });
+}
+
+Imath::V2f texture_coordinates(Mapping mapping, const V3f& p)
+{
+    if (mapping == Mapping::planar) return {p.x, -p.z};
+    const float pi = static_cast<float>(M_PI), length = p.length();
+    if (!(length > 0)) return {0, 0};
+    return {0.5f + std::atan2(p.x, p.z) / (2 * pi),
+            1 - std::acos(std::min(std::max(p.y / length, -1.0f), 1.0f)) / pi};
 }
 
 V3f perpendicular(const V3f& n)

@@ -23,11 +23,20 @@ struct Vertex
     Imath::V3f tangent;  ///< unit, perpendicular to the normal
 };
 
+/// Where pictures lie on a mesh, in its own space: on the plane y = 0, one picture a unit, or as on
+/// a globe about `centre`, u around and v up.
+enum class Mapping { planar, globe };
+
 struct Mesh
 {
     std::vector<Vertex> vertices;
     std::vector<std::array<std::uint32_t, 3>> triangles;
+    Mapping mapping = Mapping::globe;
+    Imath::V3f centre{0.0f, 1.0f, 0.0f};
 };
+
+/// Texture coordinates of a point of the mesh.
+Imath::V2f texture_coordinates(Mapping, const Imath::V3f& from_centre);
 
 /// Adds a grid of quads, two triangles each. `wrap` joins the last column to the first. A crease is
 /// made by giving the same position twice, with both normals.

@@ -21,9 +21,16 @@ namespace {
 
 constexpr std::size_t kNodeBytes = 64 * 1024;
 
-osl::ShaderGlobals globals_at(const Hit& hit, const V3f& wo)
+osl::ShaderGlobals globals_at(const Hit& hit, const V3f& wo, bool textured)
 {
     osl::ShaderGlobals sg;
+    if (textured)
+    {
+        const Imath::V2f uv = hit.uv();
+        sg.u = uv.x;
+        sg.v = uv.y;
+        sg.P = hit.in_object;
+    }
     sg.I = -wo;
     sg.backfacing = hit.geometric_normal.dot(wo) < 0.0f;
     sg.N = sg.backfacing ? -hit.normal : hit.normal;
@@ -97,8 +104,9 @@ void OslIntegrator::say(osl::Problems problems) const
 /// False where an albedo is no number.
 bool OslIntegrator::shade(const Hit& hit, const V3f& wo, Surface& surface) const
 {
-    const OslShader& shader = *_materials[static_cast<std::size_t>(hit.material)].shader;
-    surface.globals = globals_at(hit, wo);
+    const OslMaterial& material = _materials[static_cast<std::size_t>(hit.material)];
+    const OslShader& shader = *material.shader;
+    surface.globals = globals_at(hit, wo, material.textured);
     surface.nodes.reset();
     surface.bsdf.clear();
     const osl::ClosureColor* Ci = shader.shade(surface.globals, surface.nodes);

@@ -22,6 +22,7 @@ class OslShader;
 struct OslMaterial
 {
     const OslShader* shader = nullptr;
+    bool textured = false;  ///< asks for texture coordinates and positions
 };
 
 class OslIntegrator final : public Integrator

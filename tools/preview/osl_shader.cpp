@@ -12,6 +12,7 @@ using osl::ClosureColor;
 using shaders::ClosureTree;
 using shaders::MicrofacetMaterial;
 using shaders::PlainMaterial;
+using shaders::VaryingTree;
 
 namespace {
 
@@ -118,27 +119,35 @@ const ClosureColor* component(const PlainMaterial& m, const osl::ShaderGlobals& 
     return pool.component(osl::sheen_id, p);
 }
 
-const ClosureColor* closure_of(const ClosureTree& tree, ClosureTree::Node node,
-                               const osl::ShaderGlobals& globals, osl::NodePool& pool)
+// `values` are null where nothing varies.
+const ClosureColor* closure_of(const VaryingTree& surface, const Imath::V4f* values,
+                               ClosureTree::Node node, const osl::ShaderGlobals& globals,
+                               osl::NodePool& pool)
 {
     using Kind = ClosureTree::Kind;
+    const ClosureTree& tree = surface.tree;
     const ClosureTree::Made& made = tree.made(node);
-    const auto part = [&](ClosureTree::Node n) { return closure_of(tree, n, globals, pool); };
+    const auto part = [&](ClosureTree::Node n) {
+        return closure_of(surface, values, n, globals, pool);
+    };
+    const C3f weight =
+        made.parameter < 0 ? C3f(made.weight) : surface.weight(made.parameter, values);
     switch (made.kind)
     {
-        case Kind::lobe:
-            return std::visit([&](const auto& m) { return component(m, globals, pool); },
-                              tree.material_of(node));
+        case Kind::lobe: {
+            const auto here = [&](const auto& m) { return component(m, globals, pool); };
+            if (!values) return std::visit(here, tree.material_of(node));
+            return std::visit(here, surface.material_of(node, values));
+        }
         case Kind::layer:
             return pool.component(osl::layer_id,
                                   osl::LayerParams{part(made.first), part(made.second)});
         case Kind::mix: {
-            const C3f amount(made.weight);
-            return pool.add(pool.multiply(amount, part(made.first)),
-                            pool.multiply(C3f(1.0f) - amount, part(made.second)));
+            return pool.add(pool.multiply(weight, part(made.first)),
+                            pool.multiply(C3f(1.0f) - weight, part(made.second)));
         }
         case Kind::add: return pool.add(part(made.first), part(made.second));
-        case Kind::multiply: return pool.multiply(C3f(made.weight), part(made.first));
+        case Kind::multiply: return pool.multiply(weight, part(made.first));
     }
     return nullptr;
 }
@@ -166,9 +175,11 @@ osl::ClosureLibrary library_of(const ClosureTree& tree)
 
 }  // namespace
 
-TreeShader::TreeShader(const ClosureTree& tree) : OslShader(library_of(tree)), _tree(tree)
+TreeShader::TreeShader(const VaryingTree& surface)
+    : OslShader(library_of(surface.tree)), _tree(surface)
 {
-    _lets_by = tree.presence() < 1;
+    const ClosureTree& tree = surface.tree;
+    _lets_by = !surface.is_all_there();
     for (int k = 0; k < tree.lobes(); ++k)
         if (const auto* m = std::get_if<PlainMaterial>(&tree.material(k)))
             _lets_by |= std::holds_alternative<shaders::TransparentSurface>(m->surface);
@@ -176,9 +187,12 @@ TreeShader::TreeShader(const ClosureTree& tree) : OslShader(library_of(tree)), _
 
 const ClosureColor* TreeShader::shade(const osl::ShaderGlobals& globals, osl::NodePool& pool) const
 {
-    const ClosureColor* Ci = closure_of(_tree, _tree.root(), globals, pool);
+    Imath::V4f all[VaryingTree::most_values];
+    const Imath::V4f* values = _tree.varies() ? all : nullptr;
+    if (values) _tree.values_at({{globals.u, globals.v}, globals.P, globals.N}, all);
+    const ClosureColor* Ci = closure_of(_tree, values, _tree.tree.root(), globals, pool);
     // OSL has no presence but light that goes by.
-    const auto presence = presence_of<float>(_tree);
+    const auto presence = static_cast<float>(_tree.presence(values));
     if (presence == 1) return Ci;
     return pool.add(pool.multiply(C3f(presence), Ci),
                     pool.multiply(C3f(1 - presence),

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <regain/osl/closure_library.h>
+#include <regain/shaders/varying_tree.h>
 
 namespace regain::tools::preview {
 
@@ -36,13 +37,21 @@ class TreeShader final : public OslShader
 {
 public:
     /// The tables of the material's closures are bound; throws as bind_tables.
-    explicit TreeShader(const shaders::ClosureTree&);
+    explicit TreeShader(const shaders::VaryingTree&);
+    explicit TreeShader(const shaders::ClosureTree& tree) : TreeShader(as_varying(tree)) {}
 
     const osl::ClosureColor* shade(const osl::ShaderGlobals&, osl::NodePool&) const override;
     bool lets_by() const override { return _lets_by; }
 
 private:
-    shaders::ClosureTree _tree;
+    static shaders::VaryingTree as_varying(const shaders::ClosureTree& tree)
+    {
+        shaders::VaryingTree varying;
+        varying.tree = tree;
+        return varying;
+    }
+
+    shaders::VaryingTree _tree;
     bool _lets_by = false;
 };
 

@@ -21,9 +21,15 @@ constexpr std::size_t kPadBytes = 64 * 1024;
 V3f to_local(const Entry& e, const V3f& v) { return {v.dot(e.x), v.dot(e.y), v.dot(e.z)}; }
 V3f to_world(const Entry& e, const V3f& v) { return e.x * v.x + e.y * v.y + e.z * v.z; }
 
-clarisse::shading_point<float> shading_point_at(const Hit& hit, const V3f& view)
+clarisse::shading_point<float> shading_point_at(const Hit& hit, const V3f& view, bool textured)
 {
     clarisse::shading_point<float> point;
+    if (textured)
+    {
+        const Imath::V2f uv = hit.uv();
+        point.uvw = V3f(uv.x, uv.y, 0.0f);
+        point.p_object = hit.in_object;
+    }
     point.p = hit.position;
     point.ng = hit.geometric_normal;
     point.ns = hit.normal;
@@ -152,7 +158,8 @@ C3f PointIntegrator::opacity_at(const Hit& hit, const V3f& view) const
 {
     const Bound& bound = bound_at(hit);
     const auto opacity = bound.material.callbacks->opacity;
-    return opacity ? opacity(bound.data, shading_point_at(hit, view)) : C3f(1.0f);
+    return opacity ? opacity(bound.data, shading_point_at(hit, view, bound.material.textured))
+                   : C3f(1.0f);
 }
 
 /// Adds direct light and gives the path its next ray; false when the path ends here.
@@ -161,7 +168,8 @@ bool PointIntegrator::bounce(PathState& path, const Hit& hit, const Sampler& sam
 {
     const Bound& bound = bound_at(hit);
     const V3f view = -path.ray.direction;
-    const clarisse::shading_point<float> point = shading_point_at(hit, view);
+    const clarisse::shading_point<float> point =
+        shading_point_at(hit, view, bound.material.textured);
 
     workspace.pad.reset();
     Mixture mixture;

@@ -19,6 +19,7 @@ struct PointMaterial
 {
     const clarisse::material_callbacks<float>* callbacks = nullptr;
     const void* object = nullptr;
+    bool textured = false;  ///< asks for texture coordinates and positions
 };
 
 class PointIntegrator final : public Integrator

@@ -167,6 +167,8 @@ bool Scene::intersect(const Ray& ray, Hit* hit) const
     const Vertex point = blend(mesh, triangle, query.hit.u, query.hit.v);
 
     hit->material = placement.material;
+    hit->in_object = point.position - mesh.centre;
+    hit->mapping = mesh.mapping;
     // From the corners, not along the ray: the error is that of the mesh's size, not the distance.
     hit->position = point.position + placement.offset;
     V3f ns = point.normal.normalized();

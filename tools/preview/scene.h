@@ -29,6 +29,10 @@ struct Hit
     Imath::V3f position;
     Imath::V3f geometric_normal, normal, tangent;  ///< unit; tangent perpendicular to normal
     int material = 0;
+    Imath::V3f in_object;  ///< the position in the mesh's own space, from its centre
+    Mapping mapping = Mapping::globe;
+
+    Imath::V2f uv() const { return texture_coordinates(mapping, in_object); }
 
     /// A ray that leaves the surface: its origin is moved off by a distance below anything the
     /// widget shows, so that it does not meet the surface again.

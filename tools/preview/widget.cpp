@@ -213,6 +213,8 @@ Mesh make_floor(float half_size)
     Mesh mesh;
     const float s = half_size;
     add_polygon(mesh, {{-s, 0, -s}, {-s, 0, s}, {s, 0, s}, {s, 0, -s}}, {0, 1, 0});
+    mesh.mapping = Mapping::planar;
+    mesh.centre = V3f(0.0f);
     return mesh;
 }
 

@@ -18,6 +18,9 @@
 ///
 /// A closure whose weight is 0 whatever the direction is left out by set_root, and its tables are
 /// not bound.
+///
+/// Weights and amounts may be parameters: colours that lobe_weights is given at every point, see
+/// VaryingTree.
 
 #pragma once
 
@@ -38,12 +41,20 @@ public:
     enum class Kind { lobe, layer, mix, add, multiply };
 
     /// What a node was made of. lobe: no nodes; layer: top and base; mix: foreground, background
-    /// and, as weight, the amount of the foreground; multiply: first and weight.
+    /// and, as weight, the amount of the foreground; multiply: first and weight. parameter: of
+    /// the weight, -1 where it is none.
     struct Made
     {
         Kind kind;
         Node first, second;
         ColorD weight;
+        int parameter = -1;
+    };
+
+    /// The index of a colour that is given later; without one it is 1, half the foreground.
+    struct Parameter
+    {
+        int index;
     };
 
     /// Closures that a tree may have, and combinations on the way to one.
@@ -58,9 +69,11 @@ public:
     REGAIN_SHADERS_API Node layer(Node top, Node base);
     /// `amount` of the foreground in [0, 1], clamped; NaN becomes 0.
     REGAIN_SHADERS_API Node mix(Node foreground, Node background, double amount);
+    REGAIN_SHADERS_API Node mix(Node foreground, Node background, Parameter amount);
     REGAIN_SHADERS_API Node add(Node, Node);
     /// In [0, 1e6] per channel, clamped; NaN becomes 0.
     REGAIN_SHADERS_API Node multiply(Node, const ColorD& weight);
+    REGAIN_SHADERS_API Node multiply(Node, Parameter weight);
 
     /// What the material is. A node may be in several places. Throws std::invalid_argument for a
     /// node that there is none of, and where there are more closures than most_lobes or more
@@ -89,6 +102,8 @@ public:
     int lobes() const { return static_cast<int>(_lobes.size()); }
     const Material& material(int k) const { return _lobes[static_cast<std::size_t>(k)].material; }
     const char* lobe_name(int k) const { return _lobes[static_cast<std::size_t>(k)].name; }
+    /// The node that closure k is.
+    Node node_of(int k) const { return _lobes[static_cast<std::size_t>(k)].node; }
 
     template <class Real, class Visit>
     decltype(auto) with_lobe(int k, Real strength, const Visit& visit) const
@@ -100,9 +115,11 @@ public:
     }
 
     /// What each closure is multiplied by at a direction where `albedo` holds what each reflects
-    /// and lets through. Both have lobes() entries. Answers what they do together.
+    /// and lets through. Both have lobes() entries. Answers what they do together. `parameters`,
+    /// of amounts in [0, 1], of weights in [0, 1e6], may be null.
     template <class Real>
-    Color3<Real> lobe_weights(const Color3<Real>* albedo, Color3<Real>* weight) const
+    Color3<Real> lobe_weights(const Color3<Real>* albedo, Color3<Real>* weight,
+                              const Imath::C3f* parameters = nullptr) const
     {
         // The steps are in the order of a walk from the root, tops first; each energy is on a
         // stack until the combination that it is part of is complete.
@@ -117,12 +134,12 @@ public:
                     energy[top++] = albedo[s.lobe];
                     break;
                 case StepKind::weigh:
-                    passing[depth + 1] = passing[depth] * Color(s.weight);
+                    passing[depth + 1] = passing[depth] * Color(s.weight_by(parameters));
                     ++depth;
                     break;
                 case StepKind::weighed:
                     --depth;
-                    energy[top - 1] *= Color(s.weight);
+                    energy[top - 1] *= Color(s.weight_by(parameters));
                     break;
                 case StepKind::pass:
                     passing[depth + 1] = passing[depth] * rest(energy[top - 1]);
@@ -151,6 +168,7 @@ private:
     {
         Material material;
         const char* name;
+        Node node = -1;
     };
     enum class StepKind { lobe, weigh, weighed, pass, passed, add };
     struct Step
@@ -158,6 +176,14 @@ private:
         StepKind kind;
         int lobe = 0;
         Imath::C3f weight{1.0f};
+        int parameter = -1;
+        bool rest = false;  // of that, 1 less it
+
+        Imath::C3f weight_by(const Imath::C3f* parameters) const
+        {
+            if (parameter < 0 || !parameters) return weight;
+            return rest ? Imath::C3f(1.0f) - parameters[parameter] : parameters[parameter];
+        }
     };
 
     // The part of the light that gets by.

@@ -96,6 +96,8 @@ template <class Real>
 struct shading_point
 {
     vec3<Real> p, ng, ns, tangent;  ///< world space, unit normals
+    vec3<Real> p_object{Real(0)};   ///< position in the object's space
+    vec3<Real> uvw{Real(0)};        ///< texture coordinates, v upwards
     vec3<Real> view;                ///< world space, unit, towards the viewer
     bool front_facing = true;       ///< dot(ng, view) > 0 before any flip
     sidedness sides = sidedness::double_sided;

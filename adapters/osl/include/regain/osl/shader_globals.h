@@ -22,6 +22,8 @@ struct ShaderGlobals
     Imath::V3f N{0.0f, 0.0f, 1.0f}, Ng{0.0f, 0.0f, 1.0f};
     Imath::V3f dPdu{1.0f, 0.0f, 0.0f};  ///< any length; stands in for a U of no length
     bool backfacing = false;
+    float u = 0, v = 0;  ///< texture coordinates, v upwards
+    Imath::V3f P{0.0f};  ///< position, in the object's space
 };
 
 }  // namespace osl

@@ -55,7 +55,7 @@ public:
     }
 
 private:
-    static Color3 weights(const void* material, const Color3* albedo, Color3* weight)
+    static Color3 weights(const void* material, int, const Color3* albedo, Color3* weight)
     {
         return lobe_weights(*static_cast<const Material*>(material), albedo, weight);
     }

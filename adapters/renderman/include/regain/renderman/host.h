@@ -182,6 +182,8 @@ struct ShadingContext
     int numPts = 0;
     bool lightPath = false;  ///< [scTraits.lightPath]
     const Vec3 *Vn = nullptr, *Nn = nullptr, *Ngn = nullptr, *Tn = nullptr;
+    const Vec2* st = nullptr;  ///< texture coordinates, t upwards [primvar "st"]; null where none
+    const Vec3* Po = nullptr;  ///< position in the object's space [k_Po]; null where none
     void* (*allocFn)(void* arena, std::size_t bytes, std::size_t align) = nullptr;
     void* arena = nullptr;
 

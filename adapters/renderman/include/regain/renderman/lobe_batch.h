@@ -101,6 +101,9 @@ public:
         return set;
     }
 
+    /// That of a point, where points differ.
+    virtual float ior_at(int /*at*/) const { return ior; }
+
     /// Energy reflected and let through towards V, gain included, of every point.
     virtual void albedo(Color3* result) const = 0;
     /// About that, but quick: by it closures are picked.

@@ -21,8 +21,9 @@
 REGAIN_NAMESPACE_BEGIN
 namespace renderman {
 
-/// lobe_weights() of a material.
-using LobeWeightsOf = Color3 (*)(const void* material, const Color3* albedo, Color3* weight);
+/// lobe_weights() of a material, at a point of the batch.
+using LobeWeightsOf = Color3 (*)(const void* material, int at, const Color3* albedo,
+                                 Color3* weight);
 
 class SurfaceBxdf final : public Bxdf
 {
@@ -159,7 +160,7 @@ public:
         {
             Color3 E[most_lobes], w[most_lobes];
             for (int k = 0; k < _count; ++k) E[k] = _E[k * ctx->numPts + i];
-            _weights(_material, E, w);
+            _weights(_material, i, E, w);
             result[i] = Color3(0.0f);
             for (int k = 0; k < _count; ++k) result[i] += w[k] * E[k];
         }
@@ -171,7 +172,7 @@ public:
         for (int k = 0; k < _count; ++k)
         {
             if (_lobes[k]->ior == 1) continue;
-            for (int i = 0; i < ctx->numPts; ++i) result[i] = _lobes[k]->ior;
+            for (int i = 0; i < ctx->numPts; ++i) result[i] = _lobes[k]->ior_at(i);
             return true;
         }
         return false;
@@ -261,7 +262,7 @@ private:
         {
             Color3 E[most_lobes], w[most_lobes];
             for (int k = 0; k < _count; ++k) E[k] = _count > 1 ? _E[k * n + i] : Color3(1.0f);
-            _weights(_material, E, w);
+            _weights(_material, i, E, w);
             for (int k = 0; k < _count; ++k)
             {
                 _w[k * n + i] = w[k];
@@ -369,7 +370,7 @@ private:
         {
             Color3 E[most_lobes], w[most_lobes];
             for (int k = 0; k < _count; ++k) E[k] = _back_w[k * _room + j];
-            _weights(_material, E, w);
+            _weights(_material, _pairs[j].at, E, w);
             for (int k = 0; k < _count; ++k)
             {
                 _back_w[k * _room + j] = w[k];

@@ -21,4 +21,8 @@ void add_query(CLI::App& app, int& exit_code);
 void add_bake(CLI::App& app, int& exit_code);
 void add_conform(CLI::App& app, int& exit_code);
 
+struct RenderOptions;
+/// What `regain render` does with these options; throws what run_reporting reports.
+int render(const RenderOptions&);
+
 }  // namespace regain::tools

@@ -7,6 +7,7 @@
 #include "commands.h"
 #include "errors.h"
 #include "picture.h"
+#include "picture_label.h"
 #include "preview/interrupt.h"
 #include "preview/progress.h"
 #include "preview/render_job.h"
@@ -18,6 +19,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <deque>
@@ -30,33 +32,26 @@ namespace regain::tools {
 namespace {
 
 using namespace preview;
-using shaders::Compensation;
 using shaders::MicrofacetMaterial;
 
 /// One row of the picture.
 struct Row
 {
     Row(RenderPlan& plan, const RenderOptions& options, const RowScene& scene,
-        const Environment& light, const Compensation& method, int height)
+        const Environment& light, int row, int height)
         : camera(scene.camera(static_cast<float>(plan.width) / static_cast<float>(height))),
           integrator(plan.host,
                      World{scene.scene(), light, camera, plan.width, height,
                            static_cast<std::uint32_t>(options.seed), plan.bounces},
-                     materials(plan, method)),
+                     materials(plan, row)),
           film(plan.width, height)
     {}
 
-    static std::vector<std::unique_ptr<BoundMaterial>> materials(RenderPlan& plan,
-                                                                 const Compensation& method)
+    static std::vector<std::unique_ptr<BoundMaterial>> materials(RenderPlan& plan, int row)
     {
         MicrofacetMaterial floor = floor_material();
         floor.bind_tables();
-        std::vector<std::unique_ptr<BoundMaterial>> all;
-        // It has one row, to which it goes.
-        if (plan.plugin)
-            all.push_back(std::move(plan.plugin));
-        else
-            all = plan.material.bind(method);
+        std::vector<std::unique_ptr<BoundMaterial>> all = plan.bind(row);
         all.insert(all.begin(), bind(floor));
         return all;
     }
@@ -84,7 +79,9 @@ Metadata describe(const RenderPlan& plan, const RenderOptions& options, bool who
     Metadata metadata;
     auto& e = metadata.entries;
     e.emplace_back("version", REGAIN_VERSION_STRING);
-    if (plan.plugin_name.empty())
+    if (!plan.documents.empty())
+        plan.documents.describe(metadata);
+    else if (plan.plugin_name.empty())
         plan.material.describe(metadata);
     else
     {
@@ -101,21 +98,53 @@ Metadata describe(const RenderPlan& plan, const RenderOptions& options, bool who
     return metadata;
 }
 
-int render_command(const RenderOptions& options)
+// Below every object what it is.
+void label(Picture& picture, const RenderPlan& plan, const std::deque<Row>& rows,
+           const std::deque<RowScene>& scenes)
+{
+    if (label_font().empty())
+    {
+        fmt::print(stderr,
+                   "regain: there is no font for --labels; the environment variable REGAIN_FONT "
+                   "names one\n");
+        return;
+    }
+    int below = 0;
+    for (std::size_t r = 0; r < rows.size(); ++r)
+    {
+        const int height = rows[r].film.height();
+        const float aspect = static_cast<float>(plan.width) / static_cast<float>(height);
+        const auto names = plan.names(static_cast<int>(r));
+        const int room = plan.width / static_cast<int>(names.size());
+        for (std::size_t i = 0; i < names.size(); ++i)
+        {
+            // A letter is about 0.6 times as wide as it is high.
+            const double fits = 1.5 * room / double(std::max<std::size_t>(names[i].size(), 8));
+            const int size = static_cast<int>(std::clamp(fits, 6.0, 0.07 * height));
+            const float across = scenes[r].across(static_cast<int>(i), aspect);
+            set_label(picture, names[i], static_cast<int>(across * float(plan.width)),
+                      below + height - height / 20, size);
+        }
+        below += height;
+    }
+}
+
+}  // namespace
+
+int render(const RenderOptions& options)
 {
     const auto start = std::chrono::steady_clock::now();
     RenderPlan plan = make_plan(options);
     const Environment light(std::move(plan.light));
-    const RowScene scene(plan.layout);
 
+    std::deque<RowScene> scenes;
     std::deque<Row> rows;
-    const auto& methods = plan.material.methods();
     const int count = plan.rows();
     for (int i = 0; i < count; ++i)
     {
         const int height = plan.height * (i + 1) / count - plan.height * i / count;
-        rows.emplace_back(plan, options, scene, light, methods[static_cast<std::size_t>(i)],
-                          height);
+        scenes.emplace_back(plan.layout_of(i));
+        rows.emplace_back(plan, options, scenes.back(), light, i, height);
     }
 
     RenderJob job;
@@ -143,7 +172,8 @@ int render_command(const RenderOptions& options)
     const double samples =
         static_cast<double>(taken) / (static_cast<double>(plan.width) * plan.height);
     const Metadata metadata = describe(plan, options, whole, samples);
-    const Picture picture = stack(rows, plan.width);
+    Picture picture = stack(rows, plan.width);
+    if (options.labels) label(picture, plan, rows, scenes);
     write_exr(plan.exr, picture, metadata);
     write_png(plan.png, picture, plan.config, options.display, options.view);
 
@@ -168,8 +198,6 @@ int render_command(const RenderOptions& options)
     return whole ? kDone : kInterrupted;
 }
 
-}  // namespace
-
 void add_render(CLI::App& app, int& exit_code)
 {
     auto options = std::make_shared<RenderOptions>();
@@ -178,9 +206,8 @@ void add_render(CLI::App& app, int& exit_code)
         "Look-dev picture of a row of metal, glass or cloth objects: EXR, and a PNG for the "
         "display");
     declare(*options, *command);
-    command->callback([options, &exit_code] {
-        exit_code = run_reporting([&] { return render_command(*options); });
-    });
+    command->callback(
+        [options, &exit_code] { exit_code = run_reporting([&] { return render(*options); }); });
 }
 
 }  // namespace regain::tools

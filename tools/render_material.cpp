@@ -228,6 +228,13 @@ std::vector<std::unique_ptr<preview::BoundMaterial>> RenderMaterial::bind(
     return all;
 }
 
+std::vector<std::string> RenderMaterial::names() const
+{
+    std::vector<std::string> all;
+    for (const double v : _varied) all.push_back(fmt::format("{:.4g}", v));
+    return all;
+}
+
 void RenderMaterial::describe(Metadata& metadata) const
 {
     auto& e = metadata.entries;

@@ -34,6 +34,9 @@ public:
     /// From left to right, with their tables.
     std::vector<std::unique_ptr<preview::BoundMaterial>> bind(const shaders::Compensation&) const;
 
+    /// What differs, in words: "0.4".
+    std::vector<std::string> names() const;
+
     /// Adds what the materials are.
     void describe(Metadata&) const;
 

@@ -63,6 +63,8 @@ Examples:
   regain render --material glass --thin-walled --object sphere
   regain render --material glass --scatter-mode T --transmission-shadowing beta
   regain render --material sheen --weight 0,0.5,1 --base 0.1
+  regain render car.mtlx --environment studio.hdr
+  regain render materials.mtlx --select Gold --select Varnish --host osl
   regain render --plugin surface.so --set coat=1 --set base_color=0.1,0.2,0.6
   regain render --distribution gtr --gamma 1.5 --method walk)");
     command.add_option("-o,--output", o.output, "EXR to write; the PNG goes beside it")
@@ -71,6 +73,15 @@ Examples:
         "--method", o.method,
         "one row with this compensation method, instead of none above the recommended one");
     declare_materials(o, command);
+    command.add_option("DOCUMENT", o.documents,
+                       "MaterialX documents, or names of presets: one object for each of their "
+                       "materials, compensated as recommended or by --method");
+    command.add_option("--select", o.selected, "only that material of the documents, repeated")
+        ->allow_extra_args(false);
+    command.add_option("--columns", o.columns, "objects in a row of documents, 1 to 16")
+        ->capture_default_str();
+    command.add_flag("--labels", o.labels,
+                     "the name of its material, or its width, below each object");
     command.add_option("--object", o.object, "widget, sphere, or nested (a sphere in a sphere)")
         ->capture_default_str();
     command.add_option("--host", o.host,

@@ -37,6 +37,10 @@ struct RenderOptions
     std::vector<double> alphas;
     std::optional<double> alpha_ratio;
 
+    std::vector<std::string> documents, selected;
+    std::int64_t columns = 6;
+    bool labels = false;
+
     std::string plugin;
     std::vector<std::string> settings;  // of it
 

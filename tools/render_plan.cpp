@@ -67,15 +67,11 @@ preview::LatLongImage light_of(const std::string& environment)
 
 namespace {
 
-// A plug-in has parameters of its own for all that these say.
-void require_plugin_alone(const RenderOptions& o)
+// Documents and plug-ins say themselves what all these would.
+void require_alone(const RenderOptions& o, const char* with)
 {
     const auto refuse_where = [&](bool given, const char* option) {
-        if (given)
-            throw BadInput(
-                fmt::format("{}: does not go with --plugin, whose parameters are set by "
-                            "--set NAME=VALUE",
-                            option));
+        if (given) throw BadInput(fmt::format("{}: does not go with {}", option, with));
     };
     refuse_where(o.material != "metal", "--material");
     refuse_where(o.metal.has_value(), "--metal");
@@ -89,12 +85,16 @@ void require_plugin_alone(const RenderOptions& o)
     refuse_where(o.alpha_ratio.has_value(), "--alpha-ratio");
     refuse_where(o.distribution.has_value(), "--distribution");
     refuse_where(o.gamma.has_value(), "--gamma");
-    refuse_where(!o.method.empty(), "--method");
 }
 
 void add_plugin(const RenderOptions& options, RenderPlan& plan)
 {
-    require_plugin_alone(options);
+    constexpr const char* with = "--plugin, whose parameters are set by --set NAME=VALUE";
+    require_alone(options, with);
+    if (!options.method.empty()) throw BadInput(fmt::format("--method: does not go with {}", with));
+    if (!options.documents.empty())
+        throw BadInput(
+            fmt::format("{}: documents do not go with --plugin", options.documents.front()));
     preview::PluginMaterial loaded = preview::load_plugin(options.plugin, options.settings);
     if (options.host && *options.host != preview::name(loaded.host))
         refuse("--host", *options.host,
@@ -107,6 +107,38 @@ void add_plugin(const RenderOptions& options, RenderPlan& plan)
 
 }  // namespace
 
+int RenderPlan::rows() const
+{
+    if (plugin) return 1;
+    return documents.empty() ? static_cast<int>(material.methods().size()) : documents.rows();
+}
+
+preview::RowLayout RenderPlan::layout_of(int row) const
+{
+    preview::RowLayout one = layout;
+    one.objects = plugin ? 1 : documents.empty() ? material.objects() : documents.objects(row);
+    return one;
+}
+
+std::vector<std::unique_ptr<preview::BoundMaterial>> RenderPlan::bind(int row)
+{
+    if (!documents.empty()) return documents.bind(row);
+    if (!plugin) return material.bind(material.methods()[static_cast<std::size_t>(row)]);
+    std::vector<std::unique_ptr<preview::BoundMaterial>> all;
+    all.push_back(std::move(plugin));
+    return all;
+}
+
+std::vector<std::string> RenderPlan::names(int row) const
+{
+    if (!documents.empty()) return documents.names(row);
+    if (!plugin_name.empty()) return {plugin_name};
+    std::vector<std::string> all = material.names();
+    const std::string method(shaders::name(material.methods()[static_cast<std::size_t>(row)]));
+    for (std::string& name : all) name = method + " " + name;
+    return all;
+}
+
 RenderPlan make_plan(const RenderOptions& options)
 {
     check_count("--spp", options.samples, 1, 65536);
@@ -115,11 +147,21 @@ RenderPlan make_plan(const RenderOptions& options)
     check_count("--bounces", options.bounces, 0, 4096);
     auto config = shaders::ColorConfig::active();
     check_view(options, config);
-    RenderMaterial material(options, config);
+    // Documents have materials of their own; what there would be without them is not shown.
+    RenderMaterial material(options.documents.empty() ? options : RenderOptions(), config);
+    RenderDocuments documents;
+    if (!options.documents.empty())
+    {
+        require_alone(options, "documents, whose materials are what they say");
+        documents = RenderDocuments(options, config);
+    }
+    else if (!options.selected.empty())
+        refuse("--select", options.selected.front(), "goes with documents alone");
 
     RenderPlan plan{options.output,
                     fs::path(options.output).replace_extension(".png"),
                     std::move(material),
+                    std::move(documents),
                     nullptr,
                     "",
                     preview::host_named(options.host.value_or("renderman")),
@@ -133,10 +175,11 @@ RenderPlan make_plan(const RenderOptions& options)
         add_plugin(options, plan);
     else if (!options.settings.empty())
         refuse("--set", options.settings.front(), "goes with --plugin alone");
-    plan.layout.objects = plan.plugin ? 1 : plan.material.objects();
     plan.layout.object = preview::object_named(options.object);
     // What a plug-in may be is not known.
-    plan.layout.transparent = plan.plugin || plan.material.is_glass();
+    plan.layout.transparent =
+        plan.plugin ||
+        (plan.documents.empty() ? plan.material.is_glass() : plan.documents.is_transparent());
     plan.layout.floor = options.environment != kWhite;
     // Light takes its time to find out of glass.
     const int bounces = plan.layout.transparent ? 64 : 16;
@@ -144,6 +187,8 @@ RenderPlan make_plan(const RenderOptions& options)
 
     plan.height = 300 * plan.rows();
     if (plan.plugin) plan.width = plan.height = 480;
+    if (!plan.documents.empty()) plan.width = std::max(480, 240 * plan.documents.objects(0));
+    if (!plan.documents.empty() && plan.documents.objects(0) == 1) plan.height = 480;
     if (!options.size.empty()) parse_size(options.size, &plan.width, &plan.height);
     check_outputs(plan);
     plan.light = light_of(options.environment);

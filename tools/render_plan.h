@@ -10,6 +10,7 @@
 #include "preview/bound_material.h"
 #include "preview/environment.h"
 #include "preview/row.h"
+#include "render_documents.h"
 #include "render_material.h"
 
 #include <filesystem>
@@ -20,7 +21,8 @@ struct RenderPlan
 {
     std::filesystem::path exr, png;
     RenderMaterial material;
-    std::unique_ptr<preview::BoundMaterial> plugin;  ///< shown in its place; null: none
+    RenderDocuments documents;                       ///< shown in its place, unless empty
+    std::unique_ptr<preview::BoundMaterial> plugin;  ///< the same; null: none
     std::string plugin_name;
     preview::Host host;
     int width = 0, height = 0;
@@ -29,8 +31,14 @@ struct RenderPlan
     int bounces = 0;
     preview::LatLongImage light;
 
-    /// One row for each method of the material; a plug-in has its own.
-    int rows() const { return plugin ? 1 : static_cast<int>(material.methods().size()); }
+    /// One row for each method of the material; a plug-in has its own, documents as many as their
+    /// materials take.
+    int rows() const;
+    /// What stands in a row. Of a plug-in this is asked once, for it has one row.
+    preview::RowLayout layout_of(int row) const;
+    std::vector<std::unique_ptr<preview::BoundMaterial>> bind(int row);
+    /// What labels say of them.
+    std::vector<std::string> names(int row) const;
 };
 
 /// Throws BadInput.

@@ -40,12 +40,18 @@ private:
     Imath::V3f _eye, _forward, _right, _up;
 };
 
+/// What frame_row shows to either side of the middle, at the distance of the row.
+inline float half_width_of_row(int count, float spacing, float widget_height, float aspect)
+{
+    return std::max(0.5f * spacing * static_cast<float>(count) * 1.02f,
+                    0.72f * widget_height * aspect);
+}
+
 /// Looks at a row of `count` widgets, `spacing` apart along x about the origin, slightly from
 /// above, so that the floor fills the frame. The row fits whatever the frame's shape.
 inline Camera frame_row(int count, float spacing, float widget_height, float aspect)
 {
-    const float half_width = std::max(0.5f * spacing * static_cast<float>(count) * 1.02f,
-                                      0.72f * widget_height * aspect);
+    const float half_width = half_width_of_row(count, spacing, widget_height, aspect);
     const float half_height = half_width / aspect;
     const float elevation = 0.30f;                     // radians above the horizon
     const float distance = half_width / 0.21f + 8.0f;  // a long lens: the ends are not distorted

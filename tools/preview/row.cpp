@@ -75,11 +75,20 @@ RowScene::RowScene(const RowLayout& layout) : _layout(layout)
 
     const float lift = layout.transparent && layout.floor ? 2e-3f : 0.0f;
     for (int i = 0; i < layout.objects; ++i)
-    {
-        const float place = static_cast<float>(i) - 0.5f * static_cast<float>(layout.objects - 1);
-        for (const int mesh : meshes) _scene.place(mesh, V3f(place * kSpacing, lift, 0.0f), i + 1);
-    }
+        for (const int mesh : meshes) _scene.place(mesh, V3f(place(i), lift, 0.0f), i + 1);
     _scene.commit();
+}
+
+float RowScene::place(int i) const
+{
+    return kSpacing * (static_cast<float>(i) - 0.5f * static_cast<float>(_layout.objects - 1));
+}
+
+float RowScene::across(int i, float aspect) const
+{
+    return 0.5f +
+           0.5f * place(i) /
+               half_width_of_row(_layout.objects, kSpacing, height_of(_layout.object), aspect);
 }
 
 Camera RowScene::camera(float aspect) const

@@ -51,8 +51,12 @@ public:
     explicit RowScene(const RowLayout&);
     const Scene& scene() const { return _scene; }
     Camera camera(float aspect) const;
+    /// Where the middle of object i, 0 the left one, is across that camera's frame, in [0, 1].
+    float across(int i, float aspect) const;
 
 private:
+    float place(int i) const;
+
     Scene _scene;
     RowLayout _layout;
 };

@@ -5,6 +5,7 @@
 
 #include <regain/luts/replace_file.h>
 
+#include <Imath/half.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
@@ -72,15 +73,40 @@ void need_extension(const fs::path& file, const std::string& extension)
 
 }  // namespace
 
-void write_exr(const fs::path& file, const Picture& picture, const Metadata& metadata)
+Picture as_written(const Picture& picture)
+{
+    constexpr float half_max = 65504.0f;
+    Picture written = picture;
+    for (Imath::C3f& p : written.pixels)
+        for (int c = 0; c < 3; ++c)
+            p[c] = static_cast<float>(half(std::clamp(p[c], -half_max, half_max)));
+    return written;
+}
+
+Picture read_picture(const fs::path& file)
+{
+    const auto fail = [&](const std::string& why) {
+        throw std::runtime_error("cannot read '" + file.string() + "': " + why);
+    };
+    const auto in = OIIO::ImageInput::open(file.string());
+    if (!in) fail(OIIO::geterror());
+    const OIIO::ImageSpec& spec = in->spec();
+    if (spec.nchannels < 3) fail("it has fewer than three channels");
+    Picture picture{spec.width, spec.height, {}};
+    picture.pixels.resize(std::size_t(spec.width) * std::size_t(spec.height));
+    if (!in->read_image(0, 0, 0, 3, OIIO::TypeDesc::FLOAT, picture.pixels.data()))
+        fail(in->geterror());
+    check(file, picture);
+    return picture;
+}
+
+void write_exr(const fs::path& file, const Picture& picture, const Metadata& metadata,
+               const std::vector<Layer>& layers)
 {
     need_extension(file, ".exr");
     check(file, picture);
 
-    constexpr float half_max = 65504.0f;
-    std::vector<Imath::C3f> pixels = picture.pixels;
-    for (Imath::C3f& p : pixels)
-        for (int c = 0; c < 3; ++c) p[c] = std::clamp(p[c], -half_max, half_max);
+    const std::vector<Imath::C3f> pixels = as_written(picture).pixels;
 
     OIIO::ImageSpec spec(picture.width, picture.height, 3, OIIO::TypeDesc::HALF);
     spec.attribute("compression", "zip");
@@ -102,7 +128,31 @@ void write_exr(const fs::path& file, const Picture& picture, const Metadata& met
     if (!spec.find_attribute("regain:version"))
         spec.attribute("regain:version", REGAIN_VERSION_STRING);
 
-    write(file, spec, OIIO::TypeDesc::FLOAT, pixels.data());
+    if (layers.empty()) return write(file, spec, OIIO::TypeDesc::FLOAT, pixels.data());
+
+    spec.channelnames = {"R", "G", "B"};
+    spec.channelformats.assign(3, OIIO::TypeDesc::HALF);
+    for (const Layer& layer : layers)
+        for (int c = 0; c < layer.channels; ++c)
+        {
+            spec.channelnames.push_back(layer.name + (layer.channels == 1 ? ".Y"
+                                                      : c == 0            ? ".R"
+                                                      : c == 1            ? ".G"
+                                                                          : ".B"));
+            spec.channelformats.emplace_back(OIIO::TypeDesc::FLOAT);
+        }
+    spec.nchannels = static_cast<int>(spec.channelnames.size());
+    std::vector<float> values;
+    values.reserve(pixels.size() * spec.channelnames.size());
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+    {
+        for (int c = 0; c < 3; ++c) values.push_back(pixels[i][c]);
+        for (const Layer& layer : layers)
+            for (int c = 0; c < layer.channels; ++c)
+                values.push_back(layer.values.at(i * static_cast<std::size_t>(layer.channels) +
+                                                 static_cast<std::size_t>(c)));
+    }
+    write(file, spec, OIIO::TypeDesc::FLOAT, values.data());
 }
 
 void write_png(const fs::path& file, const Picture& picture, const shaders::ColorConfig& config,

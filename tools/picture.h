@@ -32,13 +32,30 @@ struct Metadata
     std::vector<std::pair<std::string, std::string>> entries;
 };
 
+/// The first three channels of a file that OpenImageIO reads. Throws std::runtime_error that names
+/// the file and what is wrong.
+Picture read_picture(const std::filesystem::path& file);
+
+/// As an EXR of half floats holds it: what write_exr writes and read_picture reads.
+Picture as_written(const Picture& picture);
+
+/// More channels of a picture, in its EXR: NAME.R, NAME.G, NAME.B, or NAME.Y of one.
+struct Layer
+{
+    std::string name;
+    int channels = 3;
+    std::vector<float> values;  ///< pixel by pixel
+};
+
 /// Half float, scene linear. Values beyond the range of half (65504) are clamped to it. Beside the
 /// metadata the file says the software, "regain:version", and its colour space,
 /// "regain:colorspace": the entry of that name where there is one, otherwise the scene_linear of
 /// ColorConfig::active(). It carries no date: the same picture is the same file, byte for byte.
 /// Throws std::runtime_error if a pixel is not finite (with their number), if the size does not fit
 /// the pixels, if the name does not end in .exr, or if the file cannot be written.
-void write_exr(const std::filesystem::path& file, const Picture& picture, const Metadata& metadata);
+/// Layers are 32 bits a channel, and of the picture's size.
+void write_exr(const std::filesystem::path& file, const Picture& picture, const Metadata& metadata,
+               const std::vector<Layer>& layers = {});
 
 /// 8 bits a channel, through the display and view of the config ("" = default); values are clamped
 /// to [0, 1] and rounded to the nearest step, without dither. Throws as write_exr does (the

@@ -6,12 +6,15 @@
 
 #include "commands.h"
 #include "errors.h"
+#include "false_colour.h"
 #include "picture.h"
 #include "picture_label.h"
+#include "preview/aov.h"
 #include "preview/interrupt.h"
 #include "preview/progress.h"
 #include "preview/render_job.h"
 #include "render_plan.h"
+#include "resume_file.h"
 
 #include <regain/closures/version.h>
 
@@ -21,6 +24,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <deque>
 #include <memory>
@@ -31,6 +35,7 @@ namespace regain::tools {
 
 namespace {
 
+namespace fs = std::filesystem;
 using namespace preview;
 using shaders::MicrofacetMaterial;
 
@@ -40,10 +45,10 @@ struct Row
     Row(RenderPlan& plan, const RenderOptions& options, const RowScene& scene,
         const Environment& light, int row, int height)
         : camera(scene.camera(static_cast<float>(plan.width) / static_cast<float>(height))),
-          integrator(plan.host,
-                     World{scene.scene(), light, camera, plan.width, height,
-                           static_cast<std::uint32_t>(options.seed), plan.bounces},
-                     materials(plan, row)),
+          world{scene.scene(), light,  camera,
+                plan.width,    height, static_cast<std::uint32_t>(options.seed),
+                plan.bounces},
+          integrator(plan.host, world, materials(plan, row)),
           film(plan.width, height)
     {}
 
@@ -57,6 +62,7 @@ struct Row
     }
 
     Camera camera;
+    World world;
     RowIntegrator integrator;
     Film film;
 };
@@ -91,11 +97,69 @@ Metadata describe(const RenderPlan& plan, const RenderOptions& options, bool who
     e.emplace_back("host", preview::name(plan.host));
     e.emplace_back("object", preview::name(plan.layout.object));
     e.emplace_back("bounces", std::to_string(plan.bounces));
-    e.emplace_back("environment", options.environment.empty() ? "studio" : options.environment);
+    e.emplace_back("environment", options.furnace               ? "white"
+                                  : options.environment.empty() ? "studio"
+                                                                : options.environment);
+    if (options.rotate != 0) e.emplace_back("rotate", fmt::format("{}", options.rotate));
     e.emplace_back("seed", std::to_string(options.seed));
     e.emplace_back("spp", whole ? std::to_string(options.samples) : fmt::format("{:.2f}", samples));
     e.emplace_back("partial", whole ? "0" : "1");
     return metadata;
+}
+
+// What the picture is of: all that decides it, but how many samples it is to have.
+std::string job_of(const RenderPlan& plan, const RenderOptions& options)
+{
+    std::string job = fmt::format("{}x{}", plan.width, plan.height);
+    for (const auto& [name, value] : describe(plan, options, true, 0).entries)
+        if (name != "spp" && name != "partial") job += fmt::format("; {}: {}", name, value);
+    for (const std::string& document : options.documents)
+    {
+        std::error_code ec;
+        const auto size = fs::file_size(document, ec);
+        if (ec) continue;
+        job += fmt::format("; {} of {} bytes, {}", document, size,
+                           fs::last_write_time(document, ec).time_since_epoch().count());
+    }
+    return job;
+}
+
+// Tells what the numbers of two of them mean.
+std::vector<Layer> layers_of(const RenderPlan& plan, const RenderOptions& options,
+                             const std::deque<Row>& rows, Metadata& metadata)
+{
+    std::vector<Layer> layers;
+    for (const std::string& name : plan.aovs)
+        layers.push_back({name, name == "albedo" || name == "gain" ? 3 : 1, {}});
+    if (layers.empty()) return layers;
+    for (const Row& row : rows)
+    {
+        const int samples = static_cast<int>(std::min<std::int64_t>(options.samples, 16));
+        const AovPictures aovs = aov_pictures(row.world, row.integrator.materials(), samples);
+        for (Layer& layer : layers)
+        {
+            if (layer.channels == 1)
+            {
+                const auto& values = layer.name == "lobe" ? aovs.lobe : aovs.method;
+                layer.values.insert(layer.values.end(), values.begin(), values.end());
+                continue;
+            }
+            for (const Imath::C3f& c : layer.name == "albedo" ? aovs.albedo : aovs.gain)
+                for (int k = 0; k < 3; ++k) layer.values.push_back(c[k]);
+        }
+    }
+    const auto listed = [](const auto& names) {
+        std::vector<std::string> all{"0 none"};
+        for (const auto& name : names) all.push_back(fmt::format("{} {}", all.size(), name));
+        return fmt::format("{}", fmt::join(all, ", "));
+    };
+    for (const Layer& layer : layers)
+    {
+        if (layer.name == "lobe") metadata.entries.emplace_back("lobes", listed(lobe_names()));
+        if (layer.name == "method")
+            metadata.entries.emplace_back("methods", listed(shaders::compensation_names()));
+    }
+    return layers;
 }
 
 // Below every object what it is.
@@ -109,18 +173,25 @@ void label(Picture& picture, const RenderPlan& plan, const std::deque<Row>& rows
                    "names one\n");
         return;
     }
+    // All of one size: by the longest that has to fit. A letter is about 0.6 times as wide as it
+    // is high.
+    double fits = 0.07 * rows.front().film.height();
+    for (std::size_t r = 0; r < rows.size(); ++r)
+    {
+        const auto names = plan.names(static_cast<int>(r));
+        for (const std::string& name : names)
+            fits = std::min(fits, 1.5 * plan.width / static_cast<double>(names.size()) /
+                                      static_cast<double>(std::max<std::size_t>(name.size(), 8)));
+    }
+    const int size = static_cast<int>(std::max(fits, 7.0));
     int below = 0;
     for (std::size_t r = 0; r < rows.size(); ++r)
     {
         const int height = rows[r].film.height();
         const float aspect = static_cast<float>(plan.width) / static_cast<float>(height);
         const auto names = plan.names(static_cast<int>(r));
-        const int room = plan.width / static_cast<int>(names.size());
         for (std::size_t i = 0; i < names.size(); ++i)
         {
-            // A letter is about 0.6 times as wide as it is high.
-            const double fits = 1.5 * room / double(std::max<std::size_t>(names[i].size(), 8));
-            const int size = static_cast<int>(std::clamp(fits, 6.0, 0.07 * height));
             const float across = scenes[r].across(static_cast<int>(i), aspect);
             set_label(picture, names[i], static_cast<int>(across * float(plan.width)),
                       below + height - height / 20, size);
@@ -135,7 +206,7 @@ int render(const RenderOptions& options)
 {
     const auto start = std::chrono::steady_clock::now();
     RenderPlan plan = make_plan(options);
-    const Environment light(std::move(plan.light));
+    const Environment light(std::move(plan.light), static_cast<float>(options.rotate * M_PI / 180));
 
     std::deque<RowScene> scenes;
     std::deque<Row> rows;
@@ -151,6 +222,12 @@ int render(const RenderOptions& options)
     for (Row& row : rows) job.targets.push_back({&row.integrator.get(), &row.film});
     job.samples = static_cast<int>(options.samples);
     job.threads = static_cast<int>(options.threads);
+
+    const fs::path resume = fs::path(plan.exr).replace_extension(".resume.exr");
+    const std::string identity = job_of(plan, options);
+    std::vector<Film*> films;
+    for (Row& row : rows) films.push_back(&row.film);
+    if (options.resume && fs::exists(resume)) read_resume_file(resume, films, identity);
 
     // Held until the files are written: Ctrl-C then does not leave half a picture.
     const InterruptGuard interrupt;
@@ -171,11 +248,37 @@ int render(const RenderOptions& options)
     }
     const double samples =
         static_cast<double>(taken) / (static_cast<double>(plan.width) * plan.height);
-    const Metadata metadata = describe(plan, options, whole, samples);
+    Metadata metadata = describe(plan, options, whole, samples);
+    const std::vector<Layer> layers = layers_of(plan, options, rows, metadata);
     Picture picture = stack(rows, plan.width);
     if (options.labels) label(picture, plan, rows, scenes);
-    write_exr(plan.exr, picture, metadata);
-    write_png(plan.png, picture, plan.config, options.display, options.view);
+    write_exr(plan.exr, picture, metadata, layers);
+    if (options.furnace)
+    {
+        const Picture white{picture.width, picture.height,
+                            std::vector<Imath::C3f>(picture.pixels.size(), Imath::C3f(1.0f))};
+        write_png(plan.png, false_colour(picture, white, options.scale > 0 ? options.scale : 0.05));
+    }
+    else
+        write_png(plan.png, picture, plan.config, options.display, options.view);
+    const bool compared = !plan.reference.pixels.empty();
+    Difference difference;
+    if (compared)
+    {
+        const Picture shown = as_written(picture);
+        difference = difference_of(shown, plan.reference);
+        const double scale = options.scale > 0 ? options.scale : std::max(difference.most, 1e-6);
+        write_png(fs::path(plan.exr).replace_extension(".difference.png"),
+                  false_colour(shown, plan.reference, scale));
+    }
+
+    if (whole)
+    {
+        std::error_code ec;
+        if (options.resume) fs::remove(resume, ec);
+    }
+    else
+        write_resume_file(resume, {films.begin(), films.end()}, identity);
 
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -184,17 +287,27 @@ int render(const RenderOptions& options)
                    taken);
     if (options.json)
     {
-        const nlohmann::ordered_json summary = {
-            {"exr", plan.exr.string()}, {"png", plan.png.string()}, {"width", plan.width},
-            {"height", plan.height},    {"seconds", seconds},       {"spp", samples},
-            {"partial", !whole},        {"non_finite", faults}};
+        nlohmann::ordered_json summary = {{"exr", plan.exr.string()}, {"png", plan.png.string()},
+                                          {"width", plan.width},      {"height", plan.height},
+                                          {"seconds", seconds},       {"spp", samples},
+                                          {"partial", !whole},        {"non_finite", faults}};
+        if (compared)
+        {
+            summary["largest_difference"] = difference.most;
+            summary["rms_difference"] = difference.rms;
+        }
         fmt::print("{}\n", summary.dump());
     }
     else if (!options.quiet)
+    {
+        if (compared)
+            fmt::print("difference from {}: largest {:.4g}, rms {:.4g}\n", options.difference,
+                       difference.most, difference.rms);
         fmt::print("{}{} and {}: {} x {}, {:.4g} samples per pixel, {}\n",
-                   whole ? "" : "interrupted; partial picture in ", plan.exr.string(),
-                   plan.png.string(), plan.width, plan.height, samples,
+                   whole ? "" : "interrupted (--resume goes on); partial picture in ",
+                   plan.exr.string(), plan.png.string(), plan.width, plan.height, samples,
                    Progress::duration(seconds));
+    }
     return whole ? kDone : kInterrupted;
 }
 

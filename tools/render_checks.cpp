@@ -5,6 +5,7 @@
 
 #include "errors.h"
 
+#include <algorithm>
 #include <optional>
 
 namespace regain::tools {
@@ -36,6 +37,24 @@ void check_list(const char* option, const std::vector<double>& values, const cha
         refuse(option, fmt::format("with {} values", values.size()),
                fmt::format("takes 1 to {}", most));
     for (const double value : values) check_number(option, value, 0, 1, least_means);
+}
+
+std::vector<shaders::Compensation> methods_named(const std::string& list)
+{
+    std::vector<shaders::Compensation> methods;
+    for (std::size_t from = 0; from < list.size();)
+    {
+        const std::size_t to = std::min(list.find(',', from), list.size());
+        const std::string one = list.substr(from, to - from);
+        const auto method = shaders::compensation_named(one);
+        if (!method)
+            refuse("--method", one,
+                   fmt::format("no such method; there are {}",
+                               fmt::join(shaders::compensation_names(), ", ")));
+        methods.push_back(*method);
+        from = to + 1;
+    }
+    return methods;
 }
 
 namespace {

@@ -8,6 +8,8 @@
 
 #include "render_options.h"
 
+#include <regain/shaders/microfacet_material.h>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -29,6 +31,9 @@ void check_number(const char* option, double value, double least, double most,
 /// 1 to 16 numbers in [0, 1].
 void check_list(const char* option, const std::vector<double>& values,
                 const char* least_means = "");
+
+/// The methods of that list, divided by commas; none of an empty one.
+std::vector<shaders::Compensation> methods_named(const std::string& list);
 
 /// What belongs to other materials than the one chosen is not passed over in silence.
 void check_belongings(const RenderOptions&);

@@ -11,6 +11,9 @@
 #include <regain/shaders/presets.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
 #include <set>
 
 namespace regain::tools {
@@ -45,92 +48,174 @@ bool lets_through(const VaryingTree& surface)
 
 }  // namespace
 
+namespace {
+
+struct Wedge
+{
+    std::string input;
+    std::vector<double> values;
+};
+
+Wedge read_wedge(const std::string& text)
+{
+    const auto wrong = [&] {
+        refuse("--wedge", text,
+               "takes INPUT=FROM..TO:N with N from 2 to 16, for example roughness=0.1..1:8");
+    };
+    const auto equals = text.find('='), dots = text.find("..", equals == text.npos ? 0 : equals),
+               colon = text.find(':', dots == text.npos ? 0 : dots);
+    if (equals == text.npos || equals == 0 || dots == text.npos || colon == text.npos) wrong();
+    const auto number = [&](std::size_t from, std::size_t to) {
+        const std::string part = text.substr(from, to - from);
+        char* end = nullptr;
+        const double v = std::strtod(part.c_str(), &end);
+        if (part.empty() || *end != 0 || !std::isfinite(v)) wrong();
+        return v;
+    };
+    const double from = number(equals + 1, dots), to = number(dots + 2, colon),
+                 n = number(colon + 1, text.size());
+    if (!(n >= 2 && n <= 16) || n != std::floor(n)) wrong();
+    Wedge wedge{text.substr(0, equals), {}};
+    for (int i = 0; i < static_cast<int>(n); ++i)
+        wedge.values.push_back(from + (to - from) * i / (n - 1));
+    return wedge;
+}
+
+std::vector<std::pair<std::string, std::string>> read_settings(const std::vector<std::string>& all)
+{
+    std::vector<std::pair<std::string, std::string>> overrides;
+    for (const std::string& text : all)
+    {
+        const auto equals = text.find('=');
+        if (equals == text.npos || equals == 0 || equals + 1 == text.size())
+            refuse("--set", text, "takes INPUT=VALUE or NODE.INPUT=VALUE");
+        overrides.emplace_back(text.substr(0, equals), text.substr(equals + 1));
+    }
+    return overrides;
+}
+
+std::string shown(std::string name)
+{
+    std::replace(name.begin(), name.end(), '_', ' ');
+    return name;
+}
+
+}  // namespace
+
 RenderDocuments::RenderDocuments(const RenderOptions& options, const shaders::ColorConfig& config)
-    : _method(options.method), _columns(static_cast<int>(options.columns))
+    : _given(options.documents),
+      _method(options.method),
+      _set(fmt::format("{}", fmt::join(options.settings, " "))),
+      _wedge(options.wedge)
 {
     check_count("--columns", options.columns, 1, 16);
-    if (!options.method.empty() && !shaders::compensation_named(options.method))
-        refuse("--method", options.method,
-               fmt::format("no such method; there are {}",
-                           fmt::join(shaders::compensation_names(), ", ")));
     const TextureFiles textures(config);
-    for (const std::string& one : options.documents) add(one, options, config, textures.loader());
-    for (const std::string& wanted : options.selected)
-        if (std::none_of(_surfaces.begin(), _surfaces.end(),
-                         [&](const Surface& s) { return s.name == wanted; }))
-            refuse("--select", wanted, "no document has a material of that name");
-    if (_surfaces.empty()) throw BadInput("the documents have no material");
-    if (static_cast<int>(_surfaces.size()) > most_objects)
-        throw BadInput(fmt::format("{} materials: at most {} are shown; --select NAME chooses",
-                                   _surfaces.size(), most_objects));
-}
-
-void RenderDocuments::add(const std::string& given, const RenderOptions& options,
-                          const shaders::ColorConfig& config,
-                          const shaders::TextureLoader& textures)
-{
     DocumentSettings settings(config);
-    settings.textures = textures;
+    settings.textures = textures.loader();
     settings.folders = shaders::preset_folders();
-    if (!options.method.empty()) settings.method = shaders::compensation_named(options.method);
-    try
+    settings.overrides = read_settings(options.settings);
+    Wedge wedge;
+    if (!options.wedge.empty()) wedge = read_wedge(options.wedge);
+
+    std::vector<std::optional<shaders::Compensation>> methods;
+    for (const auto& method : methods_named(options.method)) methods.emplace_back(method);
+    if (methods.empty()) methods.emplace_back();
+    std::set<std::string> said, found;
+    int objects = 0;
+    // Overrides by their name: what was said of them, and of how many objects.
+    std::map<std::string, std::pair<std::string, int>> unused;
+    for (const auto& method : methods)
     {
-        const auto document = MaterialDocument::read(shaders::document_or_preset(given), settings);
-        std::vector<DocumentNote> notes;
-        for (const std::string& name : document.materials())
-        {
-            if (!options.selected.empty() &&
-                std::find(options.selected.begin(), options.selected.end(), name) ==
-                    options.selected.end())
-                continue;
-            Surface s{name, document.surface(name, notes)};
-            s.tree.tree.bind_tables();
-            _is_transparent = _is_transparent || lets_through(s.tree);
-            _surfaces.push_back(std::move(s));
-        }
-        std::set<std::string> said;
-        for (const DocumentNote& note : notes)
-            if (said.insert(note.message()).second)
-                fmt::print(stderr, "regain: {}\n", note.message());
+        settings.method = method;
+        const std::string prefix =
+            methods.size() > 1 ? std::string(shaders::name(*method)) + " " : "";
+        Row row;
+        for (const std::string& given : options.documents) try
+            {
+                const auto file = shaders::document_or_preset(given);
+                std::vector<DocumentNote> notes;
+                const auto document = MaterialDocument::read(file, settings);
+                for (const std::string& name : document.materials())
+                {
+                    const auto& selected = options.selected;
+                    if (!selected.empty() &&
+                        std::find(selected.begin(), selected.end(), name) == selected.end())
+                        continue;
+                    if (found.insert(name).second) _names.push_back(name);
+                    const auto add = [&](const MaterialDocument& d, const std::string& label) {
+                        if (++objects > most_objects)
+                            throw BadInput(
+                                fmt::format("more than {} objects; --select NAME chooses materials",
+                                            most_objects));
+                        Surface s{prefix + label, d.surface(name, notes)};
+                        s.tree.tree.bind_tables();
+                        _is_transparent = _is_transparent || lets_through(s.tree);
+                        row.push_back(std::move(s));
+                    };
+                    if (wedge.values.empty())
+                    {
+                        add(document, shown(name));
+                        continue;
+                    }
+                    for (const double v : wedge.values)
+                    {
+                        DocumentSettings with = settings;
+                        with.overrides.insert(with.overrides.begin(),
+                                              {wedge.input, fmt::format("{:.9g}", v)});
+                        add(MaterialDocument::read(file, with),
+                            fmt::format("{} {:.3g}", shown(wedge.input), v));
+                    }
+                    arrange(std::move(row), true, static_cast<int>(wedge.values.size()));
+                    row.clear();
+                }
+                for (const DocumentNote& note : notes)
+                    if (!note.unused.empty())
+                        ++unused[note.unused].second, unused[note.unused].first = note.message();
+                    else if (said.insert(note.message()).second)
+                        fmt::print(stderr, "regain: {}\n", note.message());
+            }
+            catch (const DocumentError& e)
+            {
+                throw BadInput(e.what());
+            }
+        arrange(std::move(row), methods.size() > 1, static_cast<int>(options.columns));
     }
-    catch (const DocumentError& e)
-    {
-        throw BadInput(e.what());
-    }
-    _given.push_back(given);
+    for (const std::string& wanted : options.selected)
+        if (found.count(wanted) == 0)
+            refuse("--select", wanted, "no document has a material of that name");
+    if (_rows.empty()) throw BadInput("the documents have no material");
+    // One that some material has is meant for that.
+    for (const auto& [name, told] : unused)
+        if (told.second == objects) throw BadInput(told.first);
 }
 
-int RenderDocuments::rows() const
+// Rows are as even as they can be; those that are apart are no longer than they have to be.
+void RenderDocuments::arrange(Row all, bool apart, int columns)
 {
-    return (static_cast<int>(_surfaces.size()) + _columns - 1) / _columns;
-}
-
-// Rows are as even as they can be.
-int RenderDocuments::objects(int row) const
-{
-    const int n = static_cast<int>(_surfaces.size());
-    return n * (row + 1) / rows() - n * row / rows();
+    const int n = static_cast<int>(all.size());
+    if (n == 0) return;
+    const int rows = apart && n <= 16 ? 1 : (n + columns - 1) / columns;
+    for (int r = 0; r < rows; ++r)
+    {
+        Row row;
+        for (int i = n * r / rows; i < n * (r + 1) / rows; ++i)
+            row.push_back(std::move(all[static_cast<std::size_t>(i)]));
+        _rows.push_back(std::move(row));
+    }
 }
 
 std::vector<std::unique_ptr<preview::BoundMaterial>> RenderDocuments::bind(int row) const
 {
-    const int n = static_cast<int>(_surfaces.size()), first = n * row / rows();
     std::vector<std::unique_ptr<preview::BoundMaterial>> all;
-    for (int i = 0; i < objects(row); ++i)
-        all.push_back(preview::bind(_surfaces[static_cast<std::size_t>(first + i)].tree));
+    for (const Surface& s : _rows[static_cast<std::size_t>(row)])
+        all.push_back(preview::bind(s.tree));
     return all;
 }
 
 std::vector<std::string> RenderDocuments::names(int row) const
 {
-    const int first = static_cast<int>(_surfaces.size()) * row / rows();
     std::vector<std::string> all;
-    for (int i = 0; i < objects(row); ++i)
-    {
-        std::string name = _surfaces[static_cast<std::size_t>(first + i)].name;
-        std::replace(name.begin(), name.end(), '_', ' ');
-        all.push_back(std::move(name));
-    }
+    for (const Surface& s : _rows[static_cast<std::size_t>(row)]) all.push_back(s.label);
     return all;
 }
 
@@ -138,10 +223,10 @@ void RenderDocuments::describe(Metadata& metadata) const
 {
     auto& e = metadata.entries;
     e.emplace_back("documents", fmt::format("{}", fmt::join(_given, ", ")));
-    std::vector<std::string> names;
-    for (const Surface& s : _surfaces) names.push_back(s.name);
-    e.emplace_back("materials", fmt::format("{}", fmt::join(names, ", ")));
+    e.emplace_back("materials", fmt::format("{}", fmt::join(_names, ", ")));
     e.emplace_back("method", _method.empty() ? "recommended" : _method);
+    if (!_set.empty()) e.emplace_back("set", _set);
+    if (!_wedge.empty()) e.emplace_back("wedge", _wedge);
 }
 
 }  // namespace regain::tools

@@ -3,7 +3,8 @@
 
 /// @file
 /// The MaterialX documents and presets that `regain render` is given: every material of every
-/// document is one object.
+/// document is one object, in rows of so many columns; for every method anew, and with a wedge one
+/// row of a material each.
 
 #pragma once
 
@@ -33,10 +34,13 @@ public:
     /// is told on standard error.
     RenderDocuments(const RenderOptions&, const shaders::ColorConfig&);
 
-    bool empty() const { return _surfaces.empty(); }
-    int rows() const;
+    bool empty() const { return _rows.empty(); }
+    int rows() const { return static_cast<int>(_rows.size()); }
     /// Objects of a row, 0 the top.
-    int objects(int row) const;
+    int objects(int row) const
+    {
+        return static_cast<int>(_rows[static_cast<std::size_t>(row)].size());
+    }
     /// Of some, light comes out on the other side.
     bool is_transparent() const { return _is_transparent; }
     std::vector<std::unique_ptr<preview::BoundMaterial>> bind(int row) const;
@@ -48,16 +52,15 @@ public:
 private:
     struct Surface
     {
-        std::string name;
+        std::string label;
         shaders::VaryingTree tree;
     };
-    void add(const std::string& file_or_preset, const RenderOptions&, const shaders::ColorConfig&,
-             const shaders::TextureLoader&);
+    using Row = std::vector<Surface>;
+    void arrange(Row, bool apart, int columns);
 
-    std::vector<Surface> _surfaces;
-    std::vector<std::string> _given;
-    std::string _method;
-    int _columns = 6;
+    std::vector<Row> _rows;
+    std::vector<std::string> _given, _names;
+    std::string _method, _set, _wedge;
     bool _is_transparent = false;
 };
 

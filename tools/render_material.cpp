@@ -38,10 +38,7 @@ std::vector<Compensation> methods_of(const std::string& wanted, const Compensati
         if (gain && *gain == Method::none) return {recommended};
         return {Method::none, recommended};
     }
-    if (const auto method = shaders::compensation_named(wanted)) return {*method};
-    refuse("--method", wanted,
-           fmt::format("no such method; there are {}",
-                       fmt::join(shaders::compensation_names(), ", ")));
+    return methods_named(wanted);
 }
 
 // As much of an interface as decides about its method; one whose form of shadowing nobody asks for
@@ -58,9 +55,10 @@ InterfaceSurface shown_for_recommendation(const RenderOptions& options)
 // A walk is what the beta form is the first bounce of, and a tail goes on from there.
 bool needs_beta(const std::vector<Compensation>& methods)
 {
-    const Compensation& method = methods.back();
-    return std::holds_alternative<shaders::RandomWalk>(method) ||
-           std::holds_alternative<shaders::Tail>(method);
+    return std::any_of(methods.begin(), methods.end(), [](const Compensation& method) {
+        return std::holds_alternative<shaders::RandomWalk>(method) ||
+               std::holds_alternative<shaders::Tail>(method);
+    });
 }
 
 }  // namespace

@@ -64,6 +64,11 @@ Examples:
   regain render --material glass --scatter-mode T --transmission-shadowing beta
   regain render --material sheen --weight 0,0.5,1 --base 0.1
   regain render car.mtlx --environment studio.hdr
+  regain render gold --select gold_satin --wedge roughness=0.01..1:8 --labels
+  regain render gold --select gold_rough --wedge roughness=0.1..1:6 --labels --method none,tail
+  regain render car.mtlx --set coat_weight=0 --difference car.exr -o uncoated.exr
+  regain render car.mtlx --spp 4096 --resume
+  regain render silver --furnace
   regain render materials.mtlx --select Gold --select Varnish --host osl
   regain render --plugin surface.so --set coat=1 --set base_color=0.1,0.2,0.6
   regain render --distribution gtr --gamma 1.5 --method walk)");
@@ -71,13 +76,19 @@ Examples:
         ->capture_default_str();
     command.add_option(
         "--method", o.method,
-        "one row with this compensation method, instead of none above the recommended one");
+        "a row for each of these compensation methods, divided by commas, instead of none above "
+        "the recommended one");
     declare_materials(o, command);
     command.add_option("DOCUMENT", o.documents,
                        "MaterialX documents, or names of presets: one object for each of their "
                        "materials, compensated as recommended or by --method");
     command.add_option("--select", o.selected, "only that material of the documents, repeated")
         ->allow_extra_args(false);
+    command
+        .add_option("--wedge", o.wedge,
+                    "INPUT=FROM..TO:N: each material of the documents N times, in a row, with "
+                    "that value of an input")
+        ->type_name("INPUT=A..B:N");
     command.add_option("--columns", o.columns, "objects in a row of documents, 1 to 16")
         ->capture_default_str();
     command.add_flag("--labels", o.labels,
@@ -89,11 +100,36 @@ Examples:
                        "[renderman, or the one a plug-in is for]");
     command.add_option("--plugin", o.plugin,
                        "shared object with a material for one of the hosts; one object is shown");
-    command.add_option("--set", o.settings, "NAME=NUMBER or NAME=R,G,B of the plug-in's, repeated")
+    command
+        .add_option("--set", o.settings,
+                    "NAME=NUMBER or NAME=R,G,B of the plug-in's, or of documents INPUT=VALUE or "
+                    "NODE.INPUT=VALUE, repeated")
         ->allow_extra_args(false);
     command.add_option("--environment", o.environment,
                        "latitude-longitude EXR or HDR that lights the scene, or white: 1 from "
                        "everywhere, and no floor [built-in studio]");
+    command
+        .add_option("--rotate", o.rotate,
+                    "degrees by which the environment is turned, anticlockwise from above")
+        ->capture_default_str();
+    command.add_flag("--furnace", o.furnace,
+                     "light of 1 from everywhere, no floor; the PNG shows what is lost (blue) and "
+                     "what is too much (red), with its scale");
+    command.add_flag("--resume", o.resume,
+                     "go on with a render that was interrupted, from NAME.resume.exr, which an "
+                     "interrupt leaves; the picture is as if it had not been. Where there is none, "
+                     "begin");
+    command.add_option(
+        "--aov", o.aovs,
+        "layers of the EXR, divided by commas, of the first surface in view: albedo, "
+        "gain (that over the albedo without compensation), lobe and method (numbers "
+        "of the closure that most of it is from; the file says which)");
+    command.add_option("--difference", o.difference,
+                       "EXR of the same size: besides the picture, NAME.difference.png shows how "
+                       "far it is from that, with its scale");
+    command.add_option("--scale", o.scale,
+                       "what the strongest colours of --furnace and --difference mean [0.05; the "
+                       "largest difference]");
     command.add_option("--spp", o.samples, "samples per pixel, 1 to 65536")->capture_default_str();
     command.add_option("--seed", o.seed, "of the random numbers")->capture_default_str();
     command.add_option("--bounces", o.bounces, "at most, per path [16; 64 for glass]");

@@ -38,6 +38,7 @@ struct RenderOptions
     std::optional<double> alpha_ratio;
 
     std::vector<std::string> documents, selected;
+    std::string wedge;
     std::int64_t columns = 6;
     bool labels = false;
 
@@ -47,6 +48,12 @@ struct RenderOptions
     std::string object = "widget";
     std::optional<std::string> host;  // renderman, or that of the plug-in
     std::string environment;
+    double rotate = 0;
+    bool furnace = false;
+    std::string aovs;
+    bool resume = false;
+    std::string difference;
+    double scale = 0;
     std::int64_t samples = 64;
     std::int64_t seed = 1;
     std::string size;

@@ -10,6 +10,7 @@
 #include <regain/luts/replace_file.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <utility>
 
@@ -67,6 +68,24 @@ preview::LatLongImage light_of(const std::string& environment)
 
 namespace {
 
+std::vector<std::string> aovs_named(const std::string& list)
+{
+    constexpr const char* known[] = {"albedo", "gain", "lobe", "method"};
+    std::vector<std::string> aovs;
+    for (std::size_t from = 0; from < list.size();)
+    {
+        const std::size_t to = std::min(list.find(',', from), list.size());
+        const std::string one = list.substr(from, to - from);
+        if (std::none_of(std::begin(known), std::end(known),
+                         [&](const char* name) { return one == name; }))
+            refuse("--aov", one,
+                   fmt::format("no such layer; there are {}", fmt::join(known, ", ")));
+        if (std::find(aovs.begin(), aovs.end(), one) == aovs.end()) aovs.push_back(one);
+        from = to + 1;
+    }
+    return aovs;
+}
+
 // Documents and plug-ins say themselves what all these would.
 void require_alone(const RenderOptions& o, const char* with)
 {
@@ -113,6 +132,13 @@ int RenderPlan::rows() const
     return documents.empty() ? static_cast<int>(material.methods().size()) : documents.rows();
 }
 
+int RenderPlan::longest_row() const
+{
+    int longest = 0;
+    for (int row = 0; row < rows(); ++row) longest = std::max(longest, layout_of(row).objects);
+    return longest;
+}
+
 preview::RowLayout RenderPlan::layout_of(int row) const
 {
     preview::RowLayout one = layout;
@@ -157,6 +183,8 @@ RenderPlan make_plan(const RenderOptions& options)
     }
     else if (!options.selected.empty())
         refuse("--select", options.selected.front(), "goes with documents alone");
+    else if (!options.wedge.empty())
+        refuse("--wedge", options.wedge, "goes with documents alone; of others --alpha is a list");
 
     RenderPlan plan{options.output,
                     fs::path(options.output).replace_extension(".png"),
@@ -170,28 +198,48 @@ RenderPlan make_plan(const RenderOptions& options)
                     std::move(config),
                     {},
                     0,
+                    {},
+                    {},
                     {}};
     if (!options.plugin.empty())
         add_plugin(options, plan);
-    else if (!options.settings.empty())
-        refuse("--set", options.settings.front(), "goes with --plugin alone");
+    else if (!options.settings.empty() && options.documents.empty())
+        refuse("--set", options.settings.front(), "goes with documents and --plugin alone");
     plan.layout.object = preview::object_named(options.object);
     // What a plug-in may be is not known.
     plan.layout.transparent =
         plan.plugin ||
         (plan.documents.empty() ? plan.material.is_glass() : plan.documents.is_transparent());
-    plan.layout.floor = options.environment != kWhite;
+    const std::string environment = options.furnace ? kWhite : options.environment;
+    plan.layout.floor = environment != kWhite;
     // Light takes its time to find out of glass.
     const int bounces = plan.layout.transparent ? 64 : 16;
     plan.bounces = options.bounces ? static_cast<int>(options.bounces) : bounces;
 
     plan.height = 300 * plan.rows();
     if (plan.plugin) plan.width = plan.height = 480;
-    if (!plan.documents.empty()) plan.width = std::max(480, 240 * plan.documents.objects(0));
-    if (!plan.documents.empty() && plan.documents.objects(0) == 1) plan.height = 480;
+    if (!plan.documents.empty()) plan.width = std::max(480, 240 * plan.longest_row());
+    if (!plan.documents.empty() && plan.longest_row() == 1) plan.height = 480 * plan.rows();
     if (!options.size.empty()) parse_size(options.size, &plan.width, &plan.height);
+    if (options.furnace && !options.environment.empty() && options.environment != kWhite)
+        refuse("--environment", options.environment, "does not go with --furnace, which is white");
+    if (!(std::abs(options.rotate) <= 3600))
+        refuse("--rotate", fmt::format("{}", options.rotate), "takes degrees from -3600 to 3600");
+    if (!(options.scale >= 0 && options.scale <= 1e6))
+        refuse("--scale", fmt::format("{}", options.scale), "takes numbers above 0 up to 1e6");
+    if (!options.difference.empty())
+    {
+        plan.reference = read_picture(options.difference);
+        if (plan.reference.width != plan.width || plan.reference.height != plan.height)
+            refuse("--difference", options.difference,
+                   fmt::format("is {} x {}, and the picture {} x {}", plan.reference.width,
+                               plan.reference.height, plan.width, plan.height));
+    }
+    plan.aovs = aovs_named(options.aovs);
+    if (!plan.aovs.empty() && plan.plugin)
+        refuse("--aov", options.aovs, "does not go with --plugin, which does not say");
     check_outputs(plan);
-    plan.light = light_of(options.environment);
+    plan.light = light_of(environment);
     return plan;
 }
 

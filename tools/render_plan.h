@@ -30,10 +30,13 @@ struct RenderPlan
     preview::RowLayout layout;
     int bounces = 0;
     preview::LatLongImage light;
+    std::vector<std::string> aovs;
+    Picture reference;  ///< to be compared with; empty: none
 
     /// One row for each method of the material; a plug-in has its own, documents as many as their
     /// materials take.
     int rows() const;
+    int longest_row() const;
     /// What stands in a row. Of a plug-in this is asked once, for it has one row.
     preview::RowLayout layout_of(int row) const;
     std::vector<std::unique_ptr<preview::BoundMaterial>> bind(int row);

@@ -88,6 +88,7 @@ VaryingTree MaterialDocument::surface(const std::string& material,
         GraphValues values(*_impl->source, _impl->settings, surface.program, notes);
         ClosureBuilder builder(surface, values, _impl->settings.method);
         const ShadedSurface made = GraphClosures(values, builder).surface(e);
+        values.note_unused_overrides(e);
         auto root = made.closure;
         if (root == ClosureBuilder::nothing)
             root = surface.tree.lobe(PlainMaterial{OrenNayarSurface{ColorD(0.0)}});

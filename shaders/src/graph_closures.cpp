@@ -158,7 +158,10 @@ GraphClosures::Node GraphClosures::schlick(const NodeInputs& in)
     const Value F0 = in.color("color0", 1), F90 = in.color("color90", 1),
                 exponent = in.number("exponent", 5);
     const Element given = DocumentSource::input(in.node, "color82");
-    if (given && given.has("value") && !F0.varies() && !F90.varies() && !exponent.varies())
+    const bool is_overridden =
+        _values.is_overridden(in.node, "color0") || _values.is_overridden(in.node, "color82");
+    if (given && given.has("value") && !is_overridden && !F0.varies() && !F90.varies() &&
+        !exponent.varies())
     {
         const DocumentColor& space = _values.space_of(given);
         if (!space.is_identity())
@@ -212,7 +215,8 @@ GraphClosures::Node GraphClosures::conductor(const NodeInputs& in)
     const auto index = [&](const char* name, float r, float g, float b) {
         const Element given = DocumentSource::input(in.node, name);
         V4f v(r, g, b, 0);
-        if (!given || !given.has("value")) return in.color(name, r, g, b);
+        if (_values.is_overridden(in.node, name) || !given || !given.has("value"))
+            return in.color(name, r, g, b);
         if (std::sscanf(given.attribute("value").c_str(), "%f , %f , %f", &v.x, &v.y, &v.z) != 3)
             return in.color(name, r, g, b);
         return Value(3, v);

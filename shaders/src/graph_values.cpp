@@ -133,8 +133,11 @@ GraphValues::GraphValues(const DocumentSource& document, const DocumentSettings&
 
 void GraphValues::note(const Element& e, const std::string& text)
 {
-    const DocumentNote one{_document.file_name(e), _document.line(e),
-                           e.has("name") ? e.name() : e.category(), text};
+    const DocumentNote one{_document.file_name(e),
+                           _document.line(e),
+                           e.has("name") ? e.name() : e.category(),
+                           text,
+                           {}};
     if (_said.insert(one.message()).second) _notes.push_back(one);
 }
 
@@ -194,13 +197,39 @@ GraphValues::Given GraphValues::find(const Element& node, const char* name, Call
     _document.fail(node, "its input '" + std::string(name) + "' leads through too many graphs");
 }
 
+const std::string* GraphValues::override_of(const Element& node, const char* input)
+{
+    for (std::size_t i = 0; i < _settings.overrides.size(); ++i)
+    {
+        const std::string& name = _settings.overrides[i].first;
+        if (name != input && name != node.name() + "." + input) continue;
+        _used.insert(i);
+        return &_settings.overrides[i].second;
+    }
+    return nullptr;
+}
+
+void GraphValues::note_unused_overrides(const Element& material)
+{
+    for (std::size_t i = 0; i < _settings.overrides.size(); ++i)
+    {
+        const std::string& name = _settings.overrides[i].first;
+        if (_used.count(i) == 0)
+            _notes.push_back({_document.file_name(material), _document.line(material),
+                              material.name(), "'" + name + "' is no input of any of its nodes",
+                              name});
+    }
+}
+
 bool GraphValues::has(const Element& node, const char* input, Call call)
 {
+    if (override_of(node, input)) return true;
     return static_cast<bool>(find(node, input, call).input);
 }
 
 GraphValues::Source GraphValues::source(const Element& node, const char* name, Call call)
 {
+    if (override_of(node, name)) return {};
     const Given given = find(node, name, call);
     if (!given.input) return {};
     const Element& input = given.input;
@@ -394,6 +423,16 @@ Value GraphValues::widths(const Value& roughness, const Value& anisotropy)
 Value GraphValues::number(const Element& node, const char* name, const Value& otherwise, Call call)
 {
     const int width = otherwise.width();
+    if (const std::string* text = override_of(node, name))
+    {
+        if (*text == "true" || *text == "false") return Value(*text == "true" ? 1.0f : 0.0f);
+        float v[4] = {0, 0, 0, 0};
+        if (parse_floats(*text, 1, v)) return Value(v[0]);
+        if (width == 1 || !parse_floats(*text, width, v))
+            _document.fail(node, std::string("'") + name + "': '" + *text + "' is no number" +
+                                     (width == 1 ? "" : ", nor " + std::to_string(width)));
+        return {width, V4f(v[0], v[1], v[2], v[3])};
+    }
     const Given given = find(node, name, call);
     if (!given.input) return otherwise;
     Value v = otherwise;
@@ -417,6 +456,7 @@ Value GraphValues::number(const Element& node, const char* name, const Value& ot
 std::string GraphValues::word(const Element& node, const char* name, const std::string& otherwise,
                               Call call)
 {
+    if (const std::string* text = override_of(node, name)) return *text;
     const Given given = find(node, name, call);
     if (!given.input) return otherwise;
     if (given.input.has("value")) return given.input.attribute("value");

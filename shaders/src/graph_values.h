@@ -53,6 +53,13 @@ public:
     /// The document or the interface gives the input.
     bool has(const Element& node, const char* input, Call);
 
+    bool is_overridden(const Element& node, const char* input)
+    {
+        return override_of(node, input) != nullptr;
+    }
+    /// Notes overrides that nobody asked for.
+    void note_unused_overrides(const Element& material);
+
     void note(const Element&, const std::string& text);
     const DocumentSource& document() const { return _document; }
     const ColorConfig& config() const { return _settings.config; }
@@ -79,6 +86,9 @@ public:
     Value widths(const Value& roughness, const Value& anisotropy);
 
 private:
+    // What the input has in place of what the document says; null where it has that.
+    const std::string* override_of(const Element& node, const char* input);
+
     struct Given;
     Given find(const Element& node, const char* input, Call);
     Value constant(const Element& input, const std::string& text, int width);
@@ -104,6 +114,7 @@ private:
     std::map<std::pair<std::string, std::string>, std::shared_ptr<const Texture>> _pictures;
     std::map<std::string, DocumentColor> _spaces;
     std::set<std::string> _said;
+    std::set<std::size_t> _used;  // overrides
     int _depth = 0;
 };
 

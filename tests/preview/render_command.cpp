@@ -172,6 +172,17 @@ TEST_F(RenderCommand, InterruptLeavesAMarkedPicture)
     EXPECT_EQ(attribute(file("stopped.exr"), "regain:partial"), "1");
     EXPECT_TRUE(fs::exists(file("stopped.png")));
     EXPECT_NE(out.find("interrupted"), std::string::npos) << out;
+
+    // And what to go on from.
+    ASSERT_TRUE(fs::exists(file("stopped.resume.exr")));
+    EXPECT_EQ(run({"-o", file("stopped.exr"), "--size", "64x48", "--resume", "--seed", "2"}),
+              kBadInput);
+    EXPECT_NE(err.find("it is of another render"), std::string::npos) << err;
+    EXPECT_TRUE(fs::exists(file("stopped.resume.exr")));
+    EXPECT_EQ(run({"-o", file("stopped.exr"), "--size", "64x48", "--spp", "2", "--resume"}), kDone)
+        << err;
+    EXPECT_EQ(attribute(file("stopped.exr"), "regain:partial"), "0");
+    EXPECT_FALSE(fs::exists(file("stopped.resume.exr")));
 }
 
 TEST_F(RenderCommand, HelpHasExamples)

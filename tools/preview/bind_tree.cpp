@@ -4,6 +4,7 @@
 #include "bound_material.h"
 #include "lobe_maker.h"
 #include "osl_shader.h"
+#include "surface_report.h"
 
 #include <regain/renderman/surface_bxdf.h>
 #include <regain/renderman/uniform_presence.h>
@@ -96,6 +97,16 @@ public:
                 return clarisse::color<float>(
                     presence_of<float>(*static_cast<const ClosureTree*>(data)));
             };
+    }
+    bool reports() const override { return true; }
+    SurfaceReport report(const shaders::SurfacePoint&, const SeenPoint& seen) const override
+    {
+        return report_of(
+            _tree.lobes(), seen, [&](int k) { return _tree.material(k); },
+            [&](int k) { return _tree.lobe_name(k); },
+            [&](const Imath::C3f* albedo, Imath::C3f* weight) {
+                _tree.lobe_weights(albedo, weight);
+            });
     }
     GridMaterial grid() override { return {&_factory, &_tree}; }
     PointMaterial point() override { return {&_callbacks, &_tree}; }

@@ -4,6 +4,7 @@
 #include "bound_material.h"
 #include "lobe_maker.h"
 #include "osl_shader.h"
+#include "surface_report.h"
 
 #include <regain/renderman/per_point.h>
 #include <regain/renderman/surface_bxdf.h>
@@ -133,6 +134,18 @@ public:
                 surface.values_at(surface_point(point), values);
                 return clarisse::color<float>(static_cast<float>(surface.presence(values)));
             };
+    }
+    bool reports() const override { return true; }
+    SurfaceReport report(const SurfacePoint& point, const SeenPoint& seen) const override
+    {
+        V4f values[VaryingTree::most_values];
+        _tree.values_at(point, values);
+        return report_of(
+            _tree.lobes(), seen, [&](int k) { return _tree.material(k, values); },
+            [&](int k) { return _tree.lobe_name(k); },
+            [&](const Imath::C3f* albedo, Imath::C3f* weight) {
+                _tree.lobe_weights(albedo, weight, values);
+            });
     }
     GridMaterial grid() override { return {&_factory, &_tree, true}; }
     PointMaterial point() override { return {&_callbacks, &_tree, true}; }

@@ -78,7 +78,8 @@ V2f latlong_point(const V3f& d)
             std::clamp(theta / pi, 0.0f, 1.0f)};
 }
 
-Environment::Environment(LatLongImage image) : _image(std::move(image))
+Environment::Environment(LatLongImage image, float turn)
+    : _image(std::move(image)), _cosine(std::cos(turn)), _sine(std::sin(turn))
 {
     const int width = _image.width, height = _image.height;
     const auto luminance = [&](int row, int column) {
@@ -146,7 +147,7 @@ Environment::Sample Environment::sample(const V2f& u) const
     const float longitude =
         static_cast<float>(kPi) * (1.0f - 2.0f * across / static_cast<float>(_image.width));
     Sample s;
-    s.direction = V3f(radius * std::sin(longitude), y, radius * std::cos(longitude));
+    s.direction = turned(V3f(radius * std::sin(longitude), y, radius * std::cos(longitude)), _sine);
     const float down = std::acos(y) * static_cast<float>(_image.height / kPi);
     s.light = {interpolated(across, down), probability(row, column) / solid_angle(row)};
     return s;
@@ -154,7 +155,7 @@ Environment::Sample Environment::sample(const V2f& u) const
 
 Environment::Light Environment::at(const V3f& direction) const
 {
-    const V2f p = latlong_point(direction);
+    const V2f p = latlong_point(turned(direction, -_sine));
     if (!(p.x >= 0.0f && p.x <= 1.0f && p.y >= 0.0f && p.y <= 1.0f))
         return {C3f(std::numeric_limits<float>::quiet_NaN()), 0.0f};
     const float x = p.x * static_cast<float>(_image.width);

@@ -37,8 +37,9 @@ LatLongImage make_studio();
 class Environment
 {
 public:
-    /// Throws BadInput when the image holds no light.
-    explicit Environment(LatLongImage);
+    /// Throws BadInput when the image holds no light. It is turned by so many radians about the
+    /// vertical, anticlockwise as seen from above.
+    explicit Environment(LatLongImage, float turn = 0);
 
     struct Light
     {
@@ -60,7 +61,13 @@ private:
     float probability(int row, int column) const;
     Imath::C3f interpolated(float x, float y) const;
 
+    Imath::V3f turned(const Imath::V3f& v, float sine) const
+    {
+        return {_cosine * v.x + sine * v.z, v.y, _cosine * v.z - sine * v.x};
+    }
+
     LatLongImage _image;
+    float _cosine = 1, _sine = 0;         // of the turn
     std::vector<float> _row_cosine;       // height + 1: cosines from the zenith of the row borders
     std::vector<float> _row_solid_angle;  // of one pixel, steradians
     std::vector<float> _rows;             // height + 1: distribution of the row

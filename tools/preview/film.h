@@ -51,15 +51,20 @@ public:
                 static_cast<float>(pixel.sum[2] * scale)};
     }
     std::uint32_t samples(int x, int y) const { return _pixels[index(x, y)].samples; }
-    std::uint64_t non_finite() const { return _non_finite.load(std::memory_order_relaxed); }
 
-private:
+    /// All that is known of a pixel, to go on from.
     struct Pixel
     {
         double sum[3] = {0.0, 0.0, 0.0};
         std::uint32_t samples = 0;
     };
+    const Pixel& pixel(int x, int y) const { return _pixels[index(x, y)]; }
+    void restore(int x, int y, const Pixel& pixel) { _pixels[index(x, y)] = pixel; }
+    void restore_non_finite(std::uint64_t count) { _non_finite = count; }
 
+    std::uint64_t non_finite() const { return _non_finite.load(std::memory_order_relaxed); }
+
+private:
     std::size_t index(int x, int y) const
     {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(_width) +

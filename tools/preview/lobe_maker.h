@@ -39,10 +39,19 @@ struct OslLobe
     osl::Problems& problems;
 };
 
+/// A point of a surface, as it is seen.
+struct SeenPoint
+{
+    Imath::V3f V, N, Ng, T;  ///< unit, in world space, V towards the viewer
+};
+
 /// Each is asked about materials of its own kind only.
 struct LobeMaker
 {
     using Material = shaders::ClosureTree::Material;
+
+    /// What the closure reflects and lets through, at a strength of its compensation.
+    Imath::C3f (*albedo)(const Material&, float strength, const SeenPoint&);
 
     renderman::LobeBatch* (*batch)(const renderman::ShadingContext*, const Material&,
                                    const char* name);
@@ -78,7 +87,18 @@ struct MakesLobes
                              l.problems);
         });
     }
-    static constexpr LobeMaker maker{&batch, &add, &add_bsdf};
+    static Imath::C3f albedo(const LobeMaker::Material& material, float strength,
+                             const SeenPoint& p)
+    {
+        return With::call(material, strength, [&](const auto& closure) {
+            const auto frame = is_interface(closure)
+                                   ? ShadingFrame<float>::of(p.N, p.Ng, p.T)
+                                   : ShadingFrame<float>::facing(p.V, p.N, p.Ng, p.T);
+            const auto a = closure.prepare(frame.known(p.V)).albedo();
+            return Imath::C3f(a.reflect + a.transmit);
+        });
+    }
+    static constexpr LobeMaker maker{&albedo, &batch, &add, &add_bsdf};
 };
 
 /// Of one distribution.

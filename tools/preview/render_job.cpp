@@ -68,7 +68,12 @@ bool render(const RenderJob& job)
                 [&](std::size_t i) {
                     if (stopped()) return;
                     const Task& task = tasks[i];
-                    task.target->integrator->render(task.tile, first, count, *task.target->film);
+                    // All of a tile has as many.
+                    const int has =
+                        static_cast<int>(task.target->film->samples(task.tile.x0, task.tile.y0));
+                    if (has < first + count)
+                        task.target->integrator->render(task.tile, has, first + count - has,
+                                                        *task.target->film);
                     finished.fetch_add(1, std::memory_order_relaxed);
                     if (job.progress)
                         job.progress->advance(

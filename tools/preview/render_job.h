@@ -37,7 +37,8 @@ struct RenderJob
 std::uint64_t total_samples(const RenderJob&);
 
 /// Every pass gives a few more samples to every pixel, so a picture that is stopped is evenly
-/// noisy. The finished films are bit-equal for any number of threads. False when it was stopped.
+/// noisy. The finished films are bit-equal for any number of threads, and if they were stopped and
+/// gone on with. False when it was stopped.
 bool render(const RenderJob&);
 
 }  // namespace regain::tools::preview

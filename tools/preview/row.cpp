@@ -146,6 +146,13 @@ RowIntegrator::RowIntegrator(Host host, const World& world,
     }
 }
 
+std::vector<const BoundMaterial*> RowIntegrator::materials() const
+{
+    std::vector<const BoundMaterial*> all;
+    for (const auto& m : _materials) all.push_back(m.get());
+    return all;
+}
+
 RowIntegrator::~RowIntegrator() = default;
 
 }  // namespace regain::tools::preview

@@ -77,6 +77,7 @@ public:
     RowIntegrator(Host, const World&, std::vector<std::unique_ptr<BoundMaterial>> materials);
     ~RowIntegrator();
     const Integrator& get() const { return *_integrator; }
+    std::vector<const BoundMaterial*> materials() const;
 
 private:
     std::vector<std::unique_ptr<BoundMaterial>> _materials;

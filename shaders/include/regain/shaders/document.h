@@ -49,6 +49,8 @@ struct DocumentNote
     int line = 0;
     std::string node;  ///< its name, or its category where it has none
     std::string text;  ///< what is not supported, and what was used instead
+    /// The override that is no input of any node of the material; empty of all other notes.
+    std::string unused = {};
 
     /// "FILE:LINE: NODE: text".
     REGAIN_SHADERS_API std::string message() const;
@@ -63,6 +65,11 @@ struct DocumentSettings
     TextureLoader textures;
     /// Of closures that it goes with; without one, what docs/methods.md recommends for each.
     std::optional<Compensation> method;
+    /// Inputs that have another value than the document says: "NODE.INPUT" or, of any node,
+    /// "INPUT", and numbers, a word or true and false as a document has them; colours are in
+    /// scene_linear. An input that is not there gets it all the same. One that no node asks for is
+    /// noted.
+    std::vector<std::pair<std::string, std::string>> overrides;
     /// Folders to look for included documents and pictures in, after the document's own.
     std::vector<std::filesystem::path> folders;
 };

@@ -3,6 +3,8 @@
 
 #include "preset_check.h"
 
+#include "preview/lobe_maker.h"
+
 #include <regain/shaders/presets.h>
 
 #include <fmt/format.h>
@@ -75,16 +77,17 @@ void check_energy(const VaryingTree& surface, std::vector<std::string>& faults)
 {
     for (const double mu : {0.05, 0.2, 0.4, 0.6, 0.8, 1.0})
     {
-        const Vec3<double> wo(std::sqrt(1 - mu * mu), 0, mu);
-        std::vector<Color3<double>> albedo(static_cast<std::size_t>(surface.lobes())),
+        const float z = static_cast<float>(mu), sine = std::sqrt(1 - z * z);
+        const preview::SeenPoint seen{{sine, 0, z}, {0, 0, 1}, {0, 0, 1}, {1, 0, 0}};
+        std::vector<Imath::C3f> albedo(static_cast<std::size_t>(surface.lobes())),
             weight(albedo.size());
         for (int k = 0; k < surface.lobes(); ++k)
+        {
+            const auto& material = surface.tree.material(k);
             albedo[static_cast<std::size_t>(k)] =
-                surface.tree.with_lobe(k, 1.0, [&](const auto& closure) {
-                    const auto a = closure.prepare(wo).albedo();
-                    return a.reflect + a.transmit;
-                });
-        const auto whole = surface.tree.lobe_weights(albedo.data(), weight.data());
+                preview::maker_of(material).albedo(material, 1.0f, seen);
+        }
+        const ColorD whole(surface.tree.lobe_weights(albedo.data(), weight.data()));
         // What tables and added lobes are wrong by.
         constexpr double most = 1.01;
         if (!is_within(whole, 0, most))

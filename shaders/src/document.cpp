@@ -37,6 +37,11 @@ struct MaterialDocument::Impl
             return e.attribute("type") == "BSDF" && e.category() != "nodedef" &&
                    e.category() != "output" && used.count(e.name()) == 0;
         });
+        for (const Element& e : source->top())
+            if (names.empty() && e.category() == "material")
+                source->fail(e,
+                             "materials as before MaterialX 1.38, with shaderref, are not read; "
+                             "accepted: surfacematerial");
     }
 
     template <class Wanted>

@@ -3,6 +3,8 @@
 
 #include "graph_closures.h"
 
+#include "known_inputs.h"
+
 #include <regain/shaders/metals.h>
 
 #include <cmath>
@@ -30,6 +32,7 @@ ShadedSurface GraphClosures::surface(const Element& e)
 {
     if (e.category() != "surfacematerial") return shader({e, "", nullptr});
     const NodeInputs in{_values, e, nullptr};
+    note_unknown_inputs(in);
     in.note_if_connected({"backsurfaceshader"}, "both sides are shaded by 'surfaceshader'");
     in.note_if_connected({"displacementshader"}, "displacement is not supported; there is none");
     const auto from = _values.source(e, "surfaceshader", nullptr);
@@ -43,6 +46,7 @@ ShadedSurface GraphClosures::shader(const GraphValues::Source& from)
     const auto s = _values.answering(from);
     const NodeInputs in{_values, s.node, s.call};
     const std::string category = s.node.category();
+    if (s.node.attribute("type") != "BSDF") note_unknown_inputs(in);
     const char* bump = "bump and normal maps are not supported; the surface's own is used";
     in.note_if_connected(
         {"normal", "coat_normal", "geometry_normal", "geometry_coat_normal", "clearcoat_normal",
@@ -230,6 +234,7 @@ GraphClosures::Node GraphClosures::made(const Element& e, GraphValues::Call call
 {
     const NodeInputs in{_values, e, call};
     const std::string category = e.category();
+    note_unknown_inputs(in);
     if (category == "dielectric_bsdf") return weighed(in, dielectric(in));
     if (category == "conductor_bsdf") return weighed(in, conductor(in));
     if (category == "generalized_schlick_bsdf") return weighed(in, schlick(in));

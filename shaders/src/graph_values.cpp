@@ -164,6 +164,13 @@ struct GraphValues::Given
     Element scope;
 };
 
+// What a definition says of an input that nobody gives.
+GraphValues::Given GraphValues::declared(const Element& definition, const std::string& input)
+{
+    const Element e = definition ? DocumentSource::input(definition, input) : Element();
+    return e && e.has("value") ? Given{e, nullptr, Element()} : Given();
+}
+
 GraphValues::Given GraphValues::find(const Element& node, const char* name, Call call)
 {
     Element user = node;
@@ -176,23 +183,18 @@ GraphValues::Given GraphValues::find(const Element& node, const char* name, Call
         if (!input.has("interfacename"))
             return {input, call, DocumentSource::is_root(parent) ? Element() : parent};
         wanted = input.attribute("interfacename");
-        if (call && parent.xml == call->definition.xml)
+        if (call && parent.xml == call->graph.xml)
         {
-            // The caller's, or what the definition says.
-            const Element def = _document.named(
-                parent.attribute("nodedef").empty() ? "" : parent.attribute("nodedef"), parent);
-            const Element outer = call->caller;
+            user = call->caller;
+            if (!DocumentSource::input(user, wanted)) return declared(call->declaration, wanted);
             call = call->outer;
-            if (!DocumentSource::input(outer, wanted))
-            {
-                const Element declared = def ? DocumentSource::input(def, wanted) : Element();
-                if (declared && declared.has("value")) return {declared, nullptr, Element()};
-                return {};
-            }
-            user = outer;
         }
         else
+        {
             user = parent;
+            if (!DocumentSource::input(user, wanted) && user.has("nodedef"))
+                return declared(_document.named(user.attribute("nodedef"), user), wanted);
+        }
     }
     _document.fail(node, "its input '" + std::string(name) + "' leads through too many graphs");
 }
@@ -253,6 +255,41 @@ GraphValues::Source GraphValues::source(const Element& node, const char* name, C
     return s;
 }
 
+// The document's own definition of a node, by its name or by category and type; none of a node that
+// is not defined here.
+Element GraphValues::definition_of(const Element& node) const
+{
+    const std::string type = node.attribute("type");
+    Element any;
+    for (const Element& e : _document.top())
+    {
+        if (e.category() != "nodedef" || e.attribute("node") != node.category()) continue;
+        if (node.has("nodedef"))
+        {
+            if (node.attribute("nodedef") == e.name()) return e;
+            continue;
+        }
+        // Several definitions of one category differ in what comes out.
+        const pugi::xml_node output = e.xml.child("output");
+        if (type == output.attribute("type").value() || e.attribute("type") == type) return e;
+        if (!any) any = e;
+    }
+    return any;
+}
+
+// The graph that does what is defined; none where there is none.
+Element GraphValues::graph_of(const Element& definition) const
+{
+    for (const Element& e : _document.top())
+    {
+        if (e.attribute("nodedef") != definition.name()) continue;
+        if (e.category() == "nodegraph") return e;
+        if (e.category() == "implementation" && e.has("nodegraph"))
+            return _document.named(e.attribute("nodegraph"), e);
+    }
+    return {};
+}
+
 GraphValues::Source GraphValues::answering(const Source& from)
 {
     Source s = from;
@@ -282,21 +319,12 @@ GraphValues::Source GraphValues::answering(const Source& from)
             s = next;
             continue;
         }
-        else if (const Element definition = [&] {
-                     for (const Element& e : _document.top())
-                         if (e.category() == "nodedef" &&
-                             e.attribute("node") == s.node.category() &&
-                             (!s.node.has("nodedef") || s.node.attribute("nodedef") == e.name()))
-                             return e;
-                     return Element();
-                 }())
+        else if (const Element definition = definition_of(s.node))
         {
-            for (const Element& e : _document.top())
-                if (e.category() == "nodegraph" && e.attribute("nodedef") == definition.name())
-                    graph = e;
+            graph = graph_of(definition);
             if (!graph) return s;
             auto& call = _calls[{s.node.xml.hash_value(), s.call}];
-            if (!call) call.reset(new GraphCall{s.node, graph, s.call});
+            if (!call) call.reset(new GraphCall{s.node, graph, definition, s.call});
             s.call = call.get();
         }
         else

@@ -18,7 +18,7 @@ namespace shaders {
 /// Where a graph is used as a node: what its interface names are the inputs of `caller`.
 struct GraphCall
 {
-    Element caller, definition;
+    Element caller, graph, declaration;
     const GraphCall* outer = nullptr;
 };
 
@@ -91,6 +91,9 @@ private:
 
     struct Given;
     Given find(const Element& node, const char* input, Call);
+    static Given declared(const Element& definition, const std::string& input);
+    Element definition_of(const Element& node) const;
+    Element graph_of(const Element& definition) const;
     Value constant(const Element& input, const std::string& text, int width);
     Value swizzled(const Value&, const std::string& channels, const Element&);
     Value result(const Source&, int width);

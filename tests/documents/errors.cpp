@@ -39,6 +39,15 @@ TEST(DocumentErrors, what_is_no_document)
         << error_of(broken);
 }
 
+TEST(DocumentErrors, materials_of_old_are_told)
+{
+    const std::string old =
+        "<materialx version='1.37'>\n<material name='m'><shaderref name='r' "
+        "node='standard_surface'/>"
+        "</material></materialx>";
+    EXPECT_TRUE(says(error_of(old), "test.mtlx:2: m: materials as before MaterialX 1.38"));
+}
+
 TEST(DocumentErrors, what_is_not_there)
 {
     EXPECT_TRUE(says(error_of(with_input("<input name='color' type='color3' nodename='x'/>")),

@@ -5,6 +5,7 @@
 // nothing.
 
 #include "documents.h"
+#include "preview/lobe_maker.h"
 
 #include <cmath>
 
@@ -125,12 +126,12 @@ float energy(const VaryingTree& surface)
     VaryingTree bound = surface;
     bound.tree.bind_tables(true);
     std::vector<float> albedo;
-    const Vec3<double> wo(0.6, 0, 0.8);
+    const tools::preview::SeenPoint seen{{0.6f, 0, 0.8f}, {0, 0, 1}, {0, 0, 1}, {1, 0, 0}};
     for (int k = 0; k < bound.lobes(); ++k)
-        albedo.push_back(float(bound.tree.with_lobe(k, 1.0, [&](const auto& c) {
-            const auto a = c.prepare(wo).albedo();
-            return a.reflect.y + a.transmit.y;
-        })));
+    {
+        const auto& material = bound.tree.material(k);
+        albedo.push_back(tools::preview::maker_of(material).albedo(material, 1.0f, seen).y);
+    }
     float sum = 0;
     const auto w = weights(bound, albedo);
     for (std::size_t k = 0; k < albedo.size(); ++k) sum += w[k].y * albedo[k];
@@ -265,6 +266,10 @@ TEST(DocumentSurfaces, what_is_not_shown_is_noted)
     EXPECT_TRUE(says(noted(document(shader("standard_surface", in("subsurface", "float", "1")))),
                      "subsurface scattering is shown as diffuse"));
     EXPECT_TRUE(says(noted(document(shader("lama_surface", ""))), "a grey diffuse was used"));
+    EXPECT_TRUE(says(noted(document(shader("UsdPreviewSurface", in("metalness", "float", "1")))),
+                     "metalness: 'metalness' is no input of UsdPreviewSurface; it has no effect"));
+    EXPECT_TRUE(says(noted(document(closure("sheen_bsdf", in("colour", "color3", "1, 1, 1")))),
+                     "'colour' is no input of sheen_bsdf"));
     EXPECT_TRUE(says(noted(document(closure("chiang_hair_bsdf", ""))), "nothing in its place"));
     EXPECT_TRUE(
         says(noted(document(closure("dielectric_bsdf", in("distribution", "string", "phong")))),

@@ -200,6 +200,14 @@ TEST(DocumentValues, graphs_and_definitions_have_interfaces)
         "<input name='in2' type='float' interfacename='amount'/></multiply>"
         "<output name='out' type='color3' nodename='m'/></nodegraph>";
     expect_color(color(definition + node("dim", in("of", "0.8, 0.4, 0.2"))), 0.4, 0.2, 0.1);
+    // By an implementation, and of several the one of the type.
+    std::string other = definition;
+    other.replace(other.find(" nodedef='ND_dim'"), 17, "");
+    EXPECT_EQ(other.find(" nodedef='ND_dim'"), other.npos);
+    other +=
+        "<implementation name='IM' nodedef='ND_dim' nodegraph='NG_dim'/>"
+        "<nodedef name='ND_dim_float' node='dim'><output name='out' type='float'/></nodedef>";
+    expect_color(color(other + node("dim", in("of", "0.8, 0.4, 0.2"))), 0.4, 0.2, 0.1);
     // Of itself.
     expect_color(color(definition + node("dim", in("of", "0.8, 0.4, 0.2"), "once") +
                        node("dim", from("of", "once") + in("amount", "0.25", "float"))),

@@ -16,21 +16,36 @@ namespace regain::tools {
 using shaders::AddressMode;
 using shaders::DocumentColor;
 
+namespace {
+
+// One for the process, which nobody destroys: threads that have used it may end after anybody who
+// could.
+OIIO::ImageCache& process_cache()
+{
+    static OIIO::ImageCache* const one = [] {
+        OIIO::ImageCache* cache = OIIO::ImageCache::create(false);
+        // Files without tiles are read by pieces of that many texels, too.
+        cache->attribute("autotile", 64);
+        cache->attribute("autoscanline", 1);
+        cache->attribute("automip", 0);
+        return cache;
+    }();
+    return *one;
+}
+
+}  // namespace
+
 struct TextureFiles::Cache
 {
-    explicit Cache(const shaders::ColorConfig& c, int megabytes)
-        : config(c), images(OIIO::ImageCache::create(false), &destroy)
+    Cache(const shaders::ColorConfig& c, int megabytes) : config(c), images(&process_cache())
     {
         images->attribute("max_memory_MB", static_cast<float>(megabytes));
-        // Files without tiles are read by pieces of that many texels, too.
-        images->attribute("autotile", 64);
-        images->attribute("autoscanline", 1);
-        images->attribute("automip", 0);
+        // Files may have changed since they were read for somebody else.
+        images->invalidate_all(true);
     }
-    static void destroy(OIIO::ImageCache* cache) { OIIO::ImageCache::destroy(cache); }
 
     shaders::ColorConfig config;
-    std::unique_ptr<OIIO::ImageCache, decltype(&destroy)> images;
+    OIIO::ImageCache* images;
 };
 
 namespace {

@@ -3,7 +3,8 @@
 
 /// @file
 /// Pictures of documents, through OpenImageIO's cache: of a picture those tiles are in memory that
-/// are looked at, and of all of them no more than the cache is given.
+/// are looked at, and of all of them no more than the cache is given. There is one cache in a
+/// process; the latest object says how large it is, and drops what others had read.
 
 #pragma once
 

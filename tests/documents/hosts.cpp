@@ -12,6 +12,12 @@
 #include "preview/row.h"
 #include "texture_file.h"
 
+#include "../colour/configs.h"
+#include "../support/color_difference.h"
+#include "../support/temporary_folder.h"
+
+#include <OpenImageIO/imageio.h>
+
 #include <cmath>
 
 using namespace regain;
@@ -139,6 +145,81 @@ TEST(DocumentHosts, white_surfaces_that_vary_disappear_in_a_furnace)
             for (int x = 0; x < size; ++x) sum += double(film.mean(x, y).y) / (size * size);
         EXPECT_NEAR(sum, 1, 3e-3) << name(host);
     }
+}
+
+// Rendered in three working spaces, by the same random numbers: the colour of the middle.
+TEST(DocumentHosts, metals_look_the_same_in_every_working_space)
+{
+    const test::TemporaryFolder folder;
+    const ColorConfig configs[] = {
+        ColorConfig::builtin(),
+        ColorConfig::from_file(folder.write("a.ocio", test::working_in("ACEScg"))),
+        ColorConfig::from_file(folder.write("b.ocio", test::working_in("lin_rec709")))};
+    for (const char* metal : {"Gold", "Copper", "Brass"})
+    {
+        std::vector<Lab> looks;
+        for (const ColorConfig& config : configs)
+        {
+            DocumentSettings with(config);
+            const tools::TextureFiles pictures(config);
+            with.textures = pictures.loader();
+            std::vector<DocumentNote> notes;
+            VaryingTree surface =
+                MaterialDocument::read(fs::path(REGAIN_DOCUMENTS) / "metals_textured.mtlx", with)
+                    .surface(metal, notes);
+            surface.tree.bind_tables(true);
+            Film film(size, size);
+            picture(film, Host::renderman, surface, 5, 32, true);
+            C3d sum(0.0);
+            for (int y = 10; y < 22; ++y)
+                for (int x = 10; x < 22; ++x) sum += C3d(film.mean(x, y)) / 144.0;
+            Imath::M33d to_working;
+            for (int k = 0; k < 3; ++k)
+            {
+                C3d unit(0.0);
+                unit[k] = 1;
+                const C3d column = config.to_scene_linear_from_xyz_d65(unit);
+                for (int row = 0; row < 3; ++row) to_working[row][k] = column[row];
+            }
+            looks.push_back(lab_of_xyz_d65(times_column(to_working.inverse(), sum)));
+        }
+        EXPECT_LT(ciede2000(looks[0], looks[1]), 0.01) << metal;
+        EXPECT_LT(ciede2000(looks[0], looks[2]), 1) << metal;
+        EXPECT_GT(looks[0].b, 5) << "it has a colour";
+    }
+}
+
+// Of a picture of 4096 x 4096 those tiles that the few rays meet.
+TEST(DocumentHosts, large_pictures_are_rendered_from_tiles)
+{
+    const test::TemporaryFolder folder;
+    const auto file = folder / "large.exr";
+    {
+        auto out = OIIO::ImageOutput::create(file.string());
+        OIIO::ImageSpec spec(4096, 4096, 3, OIIO::TypeDesc::HALF);
+        spec.tile_width = spec.tile_height = 64;
+        ASSERT_TRUE(out->open(file.string(), spec));
+        const std::vector<float> tile(64 * 64 * 3, 0.5f);
+        for (int y = 0; y < 4096; y += 64)
+            for (int x = 0; x < 4096; x += 64)
+                ASSERT_TRUE(out->write_tile(x, y, 0, OIIO::TypeDesc::FLOAT, tile.data()));
+        out->close();
+    }
+    const tools::TextureFiles pictures(ColorConfig::builtin(), 8);
+    DocumentSettings with = settings();
+    with.textures = pictures.loader();
+    VaryingTree surface = surface_of(
+        document("<image name='i' type='color3'><input name='file' type='filename' value='" +
+                 file.string() +
+                 "' colorspace='lin_ap1'/></image><oren_nayar_diffuse_bsdf name='d' type='BSDF'>"
+                 "<input name='color' type='color3' nodename='i'/></oren_nayar_diffuse_bsdf>"),
+        nullptr, with);
+    surface.tree.bind_tables(true);
+    Film film(size, size);
+    picture(film, Host::renderman, surface, 1, 16, true);
+    EXPECT_NEAR(film.mean(size / 2, size / 2).y, 0.5f, 0.05f);
+    EXPECT_GT(pictures.bytes_read(), 0);
+    EXPECT_LT(pictures.bytes_held(), std::int64_t(10) << 20);
 }
 
 // What does not vary takes the way of all others, and no texture coordinates are asked for.

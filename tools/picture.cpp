@@ -73,6 +73,13 @@ void need_extension(const fs::path& file, const std::string& extension)
 
 }  // namespace
 
+std::string text_attribute(const fs::path& file, const std::string& name)
+{
+    const auto in = OIIO::ImageInput::open(file.string());
+    if (!in) return (void)OIIO::geterror(), "";
+    return std::string(in->spec().get_string_attribute(name));
+}
+
 Picture as_written(const Picture& picture)
 {
     constexpr float half_max = 65504.0f;

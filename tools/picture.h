@@ -36,6 +36,9 @@ struct Metadata
 /// the file and what is wrong.
 Picture read_picture(const std::filesystem::path& file);
 
+/// A text attribute of a file; empty where there is none, or no such file.
+std::string text_attribute(const std::filesystem::path& file, const std::string& name);
+
 /// As an EXR of half floats holds it: what write_exr writes and read_picture reads.
 Picture as_written(const Picture& picture);
 

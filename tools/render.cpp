@@ -13,6 +13,7 @@
 #include "preview/interrupt.h"
 #include "preview/progress.h"
 #include "preview/render_job.h"
+#include "render_checks.h"
 #include "render_plan.h"
 #include "resume_file.h"
 
@@ -29,6 +30,7 @@
 #include <deque>
 #include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace regain::tools {
@@ -101,6 +103,7 @@ Metadata describe(const RenderPlan& plan, const RenderOptions& options, bool who
                                   : options.environment.empty() ? "studio"
                                                                 : options.environment);
     if (options.rotate != 0) e.emplace_back("rotate", fmt::format("{}", options.rotate));
+    if (options.turn != 0) e.emplace_back("turn", fmt::format("{}", options.turn));
     e.emplace_back("seed", std::to_string(options.seed));
     e.emplace_back("spp", whole ? std::to_string(options.samples) : fmt::format("{:.2f}", samples));
     e.emplace_back("partial", whole ? "0" : "1");
@@ -311,6 +314,71 @@ int render(const RenderOptions& options)
     return whole ? kDone : kInterrupted;
 }
 
+namespace {
+
+bool is_whole(const fs::path& exr)
+{
+    std::error_code ec;
+    return fs::exists(exr, ec) && text_attribute(exr, "regain:partial") == "0";
+}
+
+int render_turntable(const RenderOptions& options)
+{
+    if (options.turntable < 2 || options.turntable > 9999)
+        refuse("--turntable", std::to_string(options.turntable), "takes 2 to 9999");
+    for (std::int64_t i = 0; i < options.turntable; ++i)
+    {
+        RenderOptions one = options;
+        one.turn =
+            options.turn + 360.0 * static_cast<double>(i) / static_cast<double>(options.turntable);
+        one.output =
+            fs::path(options.output).replace_extension(fmt::format(".{:04}.exr", i + 1)).string();
+        if (options.resume && is_whole(one.output)) continue;
+        if (const int code = render(one); code != kDone) return code;
+    }
+    return kDone;
+}
+
+std::vector<fs::file_time_type> times_of(const std::vector<std::string>& files)
+{
+    std::vector<fs::file_time_type> times;
+    for (const std::string& file : files)
+    {
+        std::error_code ec;
+        times.push_back(fs::last_write_time(file, ec));
+    }
+    return times;
+}
+
+// A document that is wrong, or gone, may be mended: it is said, and waited for.
+int watch(const RenderOptions& options)
+{
+    if (options.documents.empty())
+        refuse("--watch", "", "goes with documents alone: there is nothing else to change");
+    for (;;)
+    {
+        const auto seen = times_of(options.documents);
+        const int code = run_reporting([&] { return render(options); });
+        if (code == kInterrupted) return code;
+        const InterruptGuard interrupt;
+        while (times_of(options.documents) == seen)
+        {
+            if (interrupt.flag()) return kInterrupted;
+            std::this_thread::sleep_for(std::chrono::milliseconds(200));
+        }
+    }
+}
+
+int render_all(const RenderOptions& options)
+{
+    if (options.turntable != 0 && options.watch)
+        refuse("--watch", "", "does not go with --turntable");
+    if (options.watch) return watch(options);
+    return options.turntable != 0 ? render_turntable(options) : render(options);
+}
+
+}  // namespace
+
 void add_render(CLI::App& app, int& exit_code)
 {
     auto options = std::make_shared<RenderOptions>();
@@ -320,7 +388,7 @@ void add_render(CLI::App& app, int& exit_code)
         "display");
     declare(*options, *command);
     command->callback(
-        [options, &exit_code] { exit_code = run_reporting([&] { return render(*options); }); });
+        [options, &exit_code] { exit_code = run_reporting([&] { return render_all(*options); }); });
 }
 
 }  // namespace regain::tools

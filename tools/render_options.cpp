@@ -67,6 +67,8 @@ Examples:
   regain render gold --select gold_satin --wedge roughness=0.01..1:8 --labels
   regain render gold --select gold_rough --wedge roughness=0.1..1:6 --labels --method none,tail
   regain render car.mtlx --set coat_weight=0 --difference car.exr -o uncoated.exr
+  regain render car.mtlx --turntable 90 -o turn.exr --resume
+  regain render car.mtlx --watch --spp 8
   regain render car.mtlx --spp 4096 --resume
   regain render silver --furnace
   regain render materials.mtlx --select Gold --select Varnish --host osl
@@ -112,6 +114,16 @@ Examples:
         .add_option("--rotate", o.rotate,
                     "degrees by which the environment is turned, anticlockwise from above")
         ->capture_default_str();
+    command
+        .add_option("--turn", o.turn,
+                    "degrees by which each object is turned about its own vertical, "
+                    "anticlockwise from above")
+        ->capture_default_str();
+    command.add_option("--turntable", o.turntable,
+                       "2 to 9999 pictures, NAME.0001.exr and on, in which the objects turn once "
+                       "round; with --resume those that are there are left as they are");
+    command.add_flag("--watch", o.watch,
+                     "render again whenever a document is changed, until Ctrl-C");
     command.add_flag("--furnace", o.furnace,
                      "light of 1 from everywhere, no floor; the PNG shows what is lost (blue) and "
                      "what is too much (red), with its scale");

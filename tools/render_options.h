@@ -48,7 +48,9 @@ struct RenderOptions
     std::string object = "widget";
     std::optional<std::string> host;  // renderman, or that of the plug-in
     std::string environment;
-    double rotate = 0;
+    double rotate = 0, turn = 0;
+    std::int64_t turntable = 0;
+    bool watch = false;
     bool furnace = false;
     std::string aovs;
     bool resume = false;

@@ -212,6 +212,9 @@ RenderPlan make_plan(const RenderOptions& options)
         (plan.documents.empty() ? plan.material.is_glass() : plan.documents.is_transparent());
     const std::string environment = options.furnace ? kWhite : options.environment;
     plan.layout.floor = environment != kWhite;
+    if (!(std::abs(options.turn) <= 3600))
+        refuse("--turn", fmt::format("{}", options.turn), "takes degrees from -3600 to 3600");
+    plan.layout.turn = static_cast<float>(options.turn * M_PI / 180);
     // Light takes its time to find out of glass.
     const int bounces = plan.layout.transparent ? 64 : 16;
     plan.bounces = options.bounces ? static_cast<int>(options.bounces) : bounces;

@@ -6,7 +6,12 @@
 
 #include "render_fixture.h"
 
+#include <unistd.h>
 #include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <csignal>
+#include <thread>
 
 namespace regain::tools { namespace {
 
@@ -231,6 +236,86 @@ TEST_F(RenderDocuments, TheEnvironmentTurns)
     EXPECT_EQ(attribute(file("a.exr"), "regain:rotate"), "");
 }
 
+// Textures turn with their object, and a turn is no turn of the light.
+TEST_F(RenderDocuments, ObjectsTurn)
+{
+    const std::string halves =
+        temporary
+            .write("halves.mtlx",
+                   "<materialx version='1.39'><splitlr name='s' type='color3'><input name='valuel' "
+                   "type='color3' value='0, 0, 0'/><input name='valuer' type='color3' value='1, 1, "
+                   "1'/></splitlr><oren_nayar_diffuse_bsdf name='d' type='BSDF'><input "
+                   "name='color' type='color3' nodename='s'/></oren_nayar_diffuse_bsdf>"
+                   "</materialx>")
+            .string();
+    const auto sides = [&](const std::string& name) {
+        const auto c = columns(file(name));
+        double left = 0, right = 0;
+        for (std::size_t x = 0; x < 12; ++x) left += c[x], right += c[c.size() - 1 - x];
+        return left - right;
+    };
+    ASSERT_EQ(quick("t.exr", {halves, "--turntable", "4", "--environment", "white"}, "8", "24x24"),
+              kDone)
+        << err;
+    EXPECT_FALSE(std::filesystem::exists(file("t.exr")));
+    // The dark half is on the left, behind, on the right, in front.
+    EXPECT_LT(sides("t.0001.exr"), -1);
+    EXPECT_GT(sides("t.0003.exr"), 1);
+    EXPECT_LT(std::abs(sides("t.0002.exr")), 0.5);
+    EXPECT_GT(std::abs(mean(file("t.0002.exr")) - mean(file("t.0004.exr"))), 0.1);
+    EXPECT_EQ(attribute(file("t.0002.exr"), "regain:turn"), "90");
+    // What is whole is left alone.
+    const auto before = std::filesystem::last_write_time(file("t.0003.exr"));
+    std::filesystem::remove(file("t.0002.exr"));
+    ASSERT_EQ(quick("t.exr", {halves, "--turntable", "4", "--environment", "white", "--resume"},
+                    "8", "24x24"),
+              kDone);
+    EXPECT_TRUE(std::filesystem::exists(file("t.0002.exr")));
+    EXPECT_EQ(std::filesystem::last_write_time(file("t.0003.exr")), before);
+}
+
+TEST_F(RenderDocuments, ChangesAreWatched)
+{
+    const std::string watched = document();
+    const auto wait = [](const auto& until) {
+        for (int i = 0; i < 300 && !until(); ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        return until();
+    };
+    bool rendered = false, again = false;
+    std::thread user([&] {
+        const auto there = [&] {
+            return std::filesystem::exists(file("w.exr")) && std::filesystem::exists(file("w.png"));
+        };
+        rendered = wait(there);
+        std::this_thread::sleep_for(std::chrono::milliseconds(400));
+        std::filesystem::remove(file("w.png"));
+        std::filesystem::remove(file("w.exr"));
+        document();
+        std::filesystem::last_write_time(watched, std::filesystem::file_time_type::clock::now());
+        again = wait(there);
+        std::this_thread::sleep_for(std::chrono::milliseconds(500));
+        ::kill(::getpid(), SIGINT);
+    });
+    EXPECT_EQ(quick("w.exr", {watched, "--watch"}, "1", "16x16"), kInterrupted) << err;
+    user.join();
+    EXPECT_TRUE(rendered);
+    EXPECT_TRUE(again);
+}
+
+TEST_F(RenderDocuments, EveryDocumentOfTheFolderIsRendered)
+{
+    int documents = 0;
+    for (const auto& one : std::filesystem::directory_iterator(REGAIN_DOCUMENTS))
+    {
+        if (one.path().extension() != ".mtlx") continue;
+        ++documents;
+        EXPECT_EQ(quick("d.exr", {one.path().string()}, "1", "24x16"), kDone) << one.path() << err;
+        EXPECT_GT(mean(file("d.exr")), 0.01) << one.path();
+    }
+    EXPECT_GE(documents, 30);
+}
+
 TEST_F(RenderDocuments, WhatIsWrongIsSaidAndNothingIsWritten)
 {
     const auto refused = [&](const Arguments& arguments, const std::string& message) {
@@ -261,6 +346,9 @@ TEST_F(RenderDocuments, WhatIsWrongIsSaidAndNothingIsWritten)
     refused({document(), "--furnace", "--environment", "a.exr"}, "does not go with --furnace");
     refused({document(), "--rotate", "nan"}, "--rotate");
     refused({document(), "--scale", "-1"}, "--scale");
+    refused({document(), "--turntable", "1"}, "--turntable 1: takes 2 to 9999");
+    refused({document(), "--turn", "inf"}, "--turn");
+    refused({"--watch"}, "--watch: goes with documents alone");
 }
 
 }}  // namespace regain::tools

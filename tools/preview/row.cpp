@@ -75,7 +75,8 @@ RowScene::RowScene(const RowLayout& layout) : _layout(layout)
 
     const float lift = layout.transparent && layout.floor ? 2e-3f : 0.0f;
     for (int i = 0; i < layout.objects; ++i)
-        for (const int mesh : meshes) _scene.place(mesh, V3f(place(i), lift, 0.0f), i + 1);
+        for (const int mesh : meshes)
+            _scene.place(mesh, V3f(place(i), lift, 0.0f), i + 1, layout.turn);
     _scene.commit();
 }
 

@@ -40,6 +40,8 @@ struct RowLayout
     bool floor = true;
     /// The objects let light through: then they have a bottom, and stand a hair above the floor.
     bool transparent = false;
+    /// Of each object about its own vertical, radians, anticlockwise from above.
+    float turn = 0;
 };
 
 /// Geometry of a row: material 0 is the floor, 1 ... are the objects from left to right. What is

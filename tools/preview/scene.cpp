@@ -6,6 +6,7 @@
 #include <embree3/rtcore.h>
 #include <tbb/global_control.h>
 
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -68,6 +69,12 @@ struct Scene::Impl
         int mesh;
         V3f offset;
         int material;
+        float cosine, sine;  // of the turn
+
+        V3f turned(const V3f& v) const
+        {
+            return {cosine * v.x + sine * v.z, v.y, cosine * v.z - sine * v.x};
+        }
     };
 
     RTCDevice device = nullptr;
@@ -131,16 +138,18 @@ int Scene::add_mesh(Mesh m)
     return static_cast<int>(_impl->meshes.size()) - 1;
 }
 
-void Scene::place(int mesh, const V3f& offset, int material)
+void Scene::place(int mesh, const V3f& offset, int material, float turn)
 {
+    const float c = std::cos(turn), s = std::sin(turn);
     RTCGeometry instance = rtcNewGeometry(_impl->device, RTC_GEOMETRY_TYPE_INSTANCE);
     rtcSetGeometryInstancedScene(instance, _impl->mesh_scenes.at(static_cast<std::size_t>(mesh)));
-    const float transform[12] = {1, 0, 0, 0, 1, 0, 0, 0, 1, offset.x, offset.y, offset.z};
+    // By columns.
+    const float transform[12] = {c, 0, -s, 0, 1, 0, s, 0, c, offset.x, offset.y, offset.z};
     rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, transform);
     rtcCommitGeometry(instance);
     rtcAttachGeometryByID(_impl->scene, instance, static_cast<unsigned>(_impl->placements.size()));
     rtcReleaseGeometry(instance);
-    _impl->placements.push_back({mesh, offset, material});
+    _impl->placements.push_back({mesh, offset, material, c, s});
     _impl->check("place a mesh");
 }
 
@@ -164,15 +173,17 @@ bool Scene::intersect(const Ray& ray, Hit* hit) const
     const Impl::Placement& placement = _impl->placements[query.hit.instID[0]];
     const Mesh& mesh = _impl->meshes[static_cast<std::size_t>(placement.mesh)];
     const auto& triangle = mesh.triangles[query.hit.primID];
-    const Vertex point = blend(mesh, triangle, query.hit.u, query.hit.v);
+    Vertex point = blend(mesh, triangle, query.hit.u, query.hit.v);
 
     hit->material = placement.material;
     hit->in_object = point.position - mesh.centre;
     hit->mapping = mesh.mapping;
+    point = {placement.turned(point.position), placement.turned(point.normal),
+             placement.turned(point.tangent)};
     // From the corners, not along the ray: the error is that of the mesh's size, not the distance.
     hit->position = point.position + placement.offset;
     V3f ns = point.normal.normalized();
-    V3f ng = V3f(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z).normalized();
+    V3f ng = placement.turned(V3f(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z)).normalized();
     if (ng.dot(ns) < 0.0f) ng = -ng;
 
     // Near silhouettes an interpolated normal can face away while its triangle does not.

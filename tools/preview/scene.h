@@ -49,7 +49,8 @@ public:
 
     /// Index of the mesh, to place it by.
     int add_mesh(Mesh mesh);
-    void place(int mesh, const Imath::V3f& offset, int material);
+    /// Turned by so many radians about its own vertical, anticlockwise from above, then moved.
+    void place(int mesh, const Imath::V3f& offset, int material, float turn = 0);
 
     /// Call once, after the last `place`. The tree is built by one thread: built by several it may
     /// differ from run to run, and rays that meet an edge would be told different triangles.

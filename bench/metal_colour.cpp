@@ -13,6 +13,7 @@
 //   F82              metal_color: F0, and the colour at 82 degrees fitted
 
 #include "support/color_difference.h"
+#include "support/working_space.h"
 
 #include <regain/closures/conductor_fresnel.h>
 #include <regain/closures/schlick_fresnel.h>
@@ -77,15 +78,8 @@ Spectrum spectrum_of(const std::string& metal)
 int main(int argc, char** argv)
 {
     const ColorConfig config = argc > 1 ? ColorConfig::from_file(argv[1]) : ColorConfig::builtin();
-    Imath::M33d to_working;
+    const Imath::M33d to_working = to_working_space(config);
     C3d white(0.0);
-    for (int k = 0; k < 3; ++k)
-    {
-        C3d unit(0.0);
-        unit[k] = 1;
-        const C3d column = config.to_scene_linear_from_xyz_d65(unit);
-        for (int row = 0; row < 3; ++row) to_working[row][k] = column[row];
-    }
     const Imath::M33d to_xyz = to_working.inverse();
     for (int nm = first_wavelength; nm <= last_wavelength; ++nm)
         white += times_column(to_working, xyz_d65_weight(nm));

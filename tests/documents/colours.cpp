@@ -10,6 +10,7 @@
 #include "../colour/configs.h"
 #include "../support/color_difference.h"
 #include "../support/temporary_folder.h"
+#include "../support/working_space.h"
 
 #include <regain/shaders/document_color.h>
 
@@ -23,14 +24,7 @@ namespace {
 
 C3d to_xyz(const C3d& color, const ColorConfig& config)
 {
-    Imath::M33d m;
-    for (int k = 0; k < 3; ++k)
-    {
-        C3d unit(0.0);
-        unit[k] = 1;
-        const C3d column = config.to_scene_linear_from_xyz_d65(unit);
-        for (int row = 0; row < 3; ++row) m[row][k] = column[row];
-    }
+    const Imath::M33d m = to_working_space(config);
     return times_column(m.inverse(), color);
 }
 

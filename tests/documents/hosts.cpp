@@ -15,6 +15,7 @@
 #include "../colour/configs.h"
 #include "../support/color_difference.h"
 #include "../support/temporary_folder.h"
+#include "../support/working_space.h"
 
 #include <OpenImageIO/imageio.h>
 
@@ -173,14 +174,7 @@ TEST(DocumentHosts, metals_look_the_same_in_every_working_space)
             C3d sum(0.0);
             for (int y = 10; y < 22; ++y)
                 for (int x = 10; x < 22; ++x) sum += C3d(film.mean(x, y)) / 144.0;
-            Imath::M33d to_working;
-            for (int k = 0; k < 3; ++k)
-            {
-                C3d unit(0.0);
-                unit[k] = 1;
-                const C3d column = config.to_scene_linear_from_xyz_d65(unit);
-                for (int row = 0; row < 3; ++row) to_working[row][k] = column[row];
-            }
+            const Imath::M33d to_working = to_working_space(config);
             looks.push_back(lab_of_xyz_d65(times_column(to_working.inverse(), sum)));
         }
         EXPECT_LT(ciede2000(looks[0], looks[1]), 0.01) << metal;

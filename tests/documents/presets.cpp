@@ -10,6 +10,7 @@
 #include "../colour/configs.h"
 #include "../support/color_difference.h"
 #include "../support/temporary_folder.h"
+#include "../support/working_space.h"
 
 #include <regain/closures/conductor_fresnel.h>
 #include <regain/shaders/metals.h>
@@ -110,14 +111,7 @@ TEST(Presets, metals_are_those_of_their_spectra)
         ColorConfig::from_file(folder.write("b.ocio", test::working_in("lin_rec709")))};
     for (const ColorConfig& config : configs)
     {
-        Imath::M33d to_working;
-        for (int k = 0; k < 3; ++k)
-        {
-            C3d unit(0.0);
-            unit[k] = 1;
-            const C3d column = config.to_scene_linear_from_xyz_d65(unit);
-            for (int row = 0; row < 3; ++row) to_working[row][k] = column[row];
-        }
+        const Imath::M33d to_working = to_working_space(config);
         const auto lab = [&](const C3d& c) {
             return lab_of_xyz_d65(times_column(to_working.inverse(), c));
         };

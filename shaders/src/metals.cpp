@@ -235,7 +235,7 @@ MetalIndex metal_index(const std::string& name, const ColorConfig& config)
 {
     const Colouring coloured(find_metal(name), config);
     const C3d normal = limited_to_unit(coloured.at(1.0));
-    const auto [cosine, curve] = Curve::of(coloured);
+    const Curve curve = Curve::of(coloured);
     MetalIndex index;
     for (int c = 0; c < 3; ++c)
     {
@@ -248,7 +248,8 @@ MetalIndex metal_index(const std::string& name, const ColorConfig& config)
             double sum = 0;
             for (std::size_t i = 0; i < Curve::steps; ++i)
             {
-                const double e = conductor_reflectance(cosine[i], n, k_of(n)) - curve[i][c];
+                const double e =
+                    conductor_reflectance(curve.cosine[i], n, k_of(n)) - curve.color[i][c];
                 sum += e * e / Curve::steps;
             }
             return sum;

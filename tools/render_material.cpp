@@ -89,24 +89,22 @@ RenderMaterial::RenderMaterial(const RenderOptions& options, const shaders::Colo
 void RenderMaterial::read_metal(const RenderOptions& options, const shaders::ColorConfig& config)
 {
     _metal = options.metal.value_or("gold");
-    shaders::MetalColor color;
+    shaders::MetalIndex index;
     try
     {
-        color = shaders::metal_color(_metal, config);
+        index = shaders::metal_index(_metal, config);
     }
     catch (const std::invalid_argument& e)
     {
         refuse("--metal", _metal, e.what());
     }
-    if (color.out_of_gamut)
+    if (index.out_of_gamut)
         fmt::print(stderr,
-                   "regain: {} reflects a colour outside the working space {}; it was limited to "
-                   "[0, 1]\n",
+                   "regain: {} reflects a colour outside the working space {}; one near it was "
+                   "used instead\n",
                    _metal, config.scene_linear());
-    shaders::SchlickSurface surface;
-    surface.F0 = shaders::ColorD(color.F0);
-    surface.F82 = shaders::ColorD(color.F82);
-    _material.surface = surface;
+    _material.surface =
+        shaders::ConductorSurface{shaders::ColorD(index.n), shaders::ColorD(index.k)};
 }
 
 void RenderMaterial::read_glass(const RenderOptions& options)

@@ -13,7 +13,9 @@ void declare_materials(RenderOptions& o, CLI::App& command)
 {
     command.add_option("--material", o.material, "metal, glass, or sheen (a cloth)")
         ->capture_default_str();
-    command.add_option("--metal", o.metal, "gold, silver, copper, aluminium or brass [gold]");
+    command.add_option(
+        "--metal", o.metal,
+        "one of `regain presets list --kind metal`: silver, copper, brass ... [gold]");
     command.add_option("--ior", o.ior,
                        "of glass: index inside over index outside, 0.1 to 10; of thin-walled "
                        "glass, of the sheet over what is around it [1.5]");

@@ -234,9 +234,10 @@ MetalColor metal_color(const std::string& name, const ColorConfig& config)
 MetalIndex metal_index(const std::string& name, const ColorConfig& config)
 {
     const Colouring coloured(find_metal(name), config);
-    const C3d normal = limited_to_unit(coloured.at(1.0));
+    const C3d color = coloured.at(1.0), normal = limited_to_unit(color);
     const Curve curve = Curve::of(coloured);
     MetalIndex index;
+    index.out_of_gamut = normal != color;
     for (int c = 0; c < 3; ++c)
     {
         const double F0 = std::clamp(normal[c], 1e-4, 0.999), root = std::sqrt(F0);

@@ -120,6 +120,8 @@ TEST(MetalFit, clamping_is_told)
         ColorConfig::from_file(folder.write("c.ocio", test::working_in("lin_rec709")));
     const MetalColor gold = metal_color("gold", rec709);
     EXPECT_TRUE(gold.out_of_gamut);
+    EXPECT_TRUE(metal_index("gold", rec709).out_of_gamut);
+    EXPECT_FALSE(metal_index("gold", ColorConfig::builtin()).out_of_gamut);
     EXPECT_EQ(gold.F0.x, 1.0);
     EXPECT_GT(metal_reflectance("gold", 1.0, rec709).x, 1.0);
 

@@ -150,7 +150,7 @@ TEST(Textures, large_pictures_are_in_memory_by_tiles)
     std::vector<std::thread> threads;
     for (int k = 0; k < 4; ++k)
         threads.emplace_back([&, k] {
-            for (int i = k; i < 40000; i += 4)
+            for (int i = k; i < 10000; i += 4)
             {
                 const float u = float(std::fmod(i * 0.7548776662, 1.0)),
                             v = float(std::fmod(i * 0.5698402910, 1.0));
@@ -161,7 +161,7 @@ TEST(Textures, large_pictures_are_in_memory_by_tiles)
     for (auto& thread : threads) thread.join();
     // The cache keeps a tile a thread besides.
     EXPECT_LT(files.bytes_held(), std::int64_t(megabytes + 2) << 20);
-    EXPECT_GT(files.bytes_read(), std::int64_t(100) << 20) << "all of it was looked at";
+    EXPECT_GT(files.bytes_read(), std::int64_t(60) << 20) << "most of it was looked at";
 }
 
 }  // namespace

@@ -127,7 +127,7 @@ echo 1000 >"$scratch/uid"
 launch '' render
 check 'without root the missing packages are named and the exit code is 2' exits 2
 check 'the line to run stands alone' says stderr \
-    '^sudo apt-get update && sudo apt-get install -y --no-install-recommends libimath-dev .*libfmt-dev$'
+    '^sudo apt-get update && sudo apt-get install -y --no-install-recommends libimath-dev .*fonts-dejavu-core$'
 check 'without root nothing is installed' not called '^apt-get'
 check 'render does not ask for GoogleTest' not says stderr gtest
 launch '' test

@@ -60,7 +60,8 @@ struct MetalColor
 struct MetalIndex
 {
     C3d n{1.0}, k{0.0};
-    double fit_error = 0;  ///< as of MetalColor
+    double fit_error = 0;       ///< as of MetalColor
+    bool out_of_gamut = false;  ///< as of MetalColor
 };
 
 /// The metals and alloys there are, in the order of the alphabet: "aluminium" to "zirconium",

@@ -24,7 +24,12 @@ struct Element
 
     explicit operator bool() const { return static_cast<bool>(xml); }
     std::string name() const { return xml.attribute("name").value(); }
-    std::string category() const { return xml.name(); }
+    /// <CATEGORY ...>, or the other way to write it, <node nodetype="CATEGORY" ...>.
+    std::string category() const
+    {
+        const pugi::xml_attribute type = xml.attribute("nodetype");
+        return type && std::string(xml.name()) == "node" ? type.value() : xml.name();
+    }
     std::string attribute(const char* which) const { return xml.attribute(which).value(); }
     bool has(const char* attribute) const { return !xml.attribute(attribute).empty(); }
 };

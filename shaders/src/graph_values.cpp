@@ -747,7 +747,7 @@ Value GraphValues::node(const Element& e, const std::string& output, int wanted,
     }
     if (category == "UsdUVTexture")
     {
-        const Value v = picture(e, 4, call);
+        const Value v = add(multiply(picture(e, 4, call), in("scale", 1, 4)), in("bias", 0, 4));
         return output.size() == 1 && channel_index(output[0]) >= 0
                    ? lane(v, channel_index(output[0]))
                    : v.as(wanted);
@@ -822,6 +822,9 @@ Value GraphValues::picture(const Element& e, int width, Call call)
                     tile_size = number(e, "realworldtilesize", Value(1.0f).as(2), call);
         uv = divide(multiply(subtract(multiply(uv, tiling), offset), tile_size), image_size);
     }
+    const std::string filter = word(e, "filtertype", "linear", call);
+    if (filter != "linear")
+        note(e, "the filter '" + filter + "' is not supported; linear was used instead");
     if (has(e, "layer", call) && !word(e, "layer", "", call).empty())
         note(e, "layers of a picture are not supported; the first channels were used");
     const auto mode = [&](const char* input) {

@@ -99,6 +99,37 @@ TEST(DocumentFolder, a_picture_that_is_not_there_is_an_error)
                  std::runtime_error);
 }
 
+// Of a picture of UsdUVTexture, scaled and shifted, and by the default where there is none.
+TEST(DocumentFolder, usd_pictures_are_scaled)
+{
+    const auto color = [](const std::string& inputs) {
+        const tools::TextureFiles pictures(ColorConfig::builtin());
+        DocumentSettings with = settings();
+        with.textures = pictures.loader();
+        const auto surface = surface_of(
+            document("<UsdUVTexture name='t' type='multioutput'><input name='file' type='filename' "
+                     "value='" +
+                     std::string(REGAIN_DOCUMENTS) + "/textures/wood_roughness.png'/>" + inputs +
+                     "</UsdUVTexture><oren_nayar_diffuse_bsdf name='d' type='BSDF'><input "
+                     "name='color' type='color3' nodename='t' output='rgb'/>"
+                     "</oren_nayar_diffuse_bsdf>"),
+            nullptr, with);
+        Imath::V4f values[VaryingTree::most_values];
+        SurfacePoint point;
+        point.uv = {0.3f, 0.6f};
+        surface.values_at(point, values);
+        return std::get<OrenNayarSurface>(
+                   std::get<PlainMaterial>(surface.material(0, values)).surface)
+            .color;
+    };
+    const ColorD plain = color("");
+    EXPECT_GT(plain.x, 0.1);
+    const ColorD other = color(
+        "<input name='scale' type='vector4' value='0.5, 0.25, 1, 1'/>"
+        "<input name='bias' type='vector4' value='0, 0.1, 0, 0'/>");
+    expect_color(other, 0.5 * plain.x, 0.25 * plain.y + 0.1, plain.z, 1e-5);
+}
+
 TEST(DocumentFolder, libraries_are_included_under_their_names)
 {
     std::vector<DocumentNote> notes;

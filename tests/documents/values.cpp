@@ -214,6 +214,13 @@ TEST(DocumentValues, graphs_and_definitions_have_interfaces)
                  0.1, 0.05, 0.025);
 }
 
+TEST(DocumentValues, nodes_may_be_written_by_their_type)
+{
+    expect_color(color("<node name='last' nodetype='constant' type='color3'>" +
+                       in("value", "0.1, 0.2, 0.3") + "</node>"),
+                 0.1, 0.2, 0.3);
+}
+
 TEST(DocumentValues, what_is_not_known_is_noted_and_stood_in_for)
 {
     std::vector<DocumentNote> notes;

@@ -176,17 +176,20 @@ void label(Picture& picture, const RenderPlan& plan, const std::deque<Row>& rows
                    "names one\n");
         return;
     }
-    // All of one size: by the longest that has to fit. A letter is about 0.6 times as wide as it
-    // is high.
-    double fits = 0.07 * rows.front().film.height();
+    // Of one size, which three of four names fit; longer ones are smaller. A letter is about 0.6
+    // times as wide as it is high.
+    const auto fit = [&](const std::string& name, std::size_t objects) {
+        return 1.5 * plan.width / static_cast<double>(objects) /
+               static_cast<double>(std::max<std::size_t>(name.size(), 8));
+    };
+    std::vector<double> fits;
     for (std::size_t r = 0; r < rows.size(); ++r)
     {
         const auto names = plan.names(static_cast<int>(r));
-        for (const std::string& name : names)
-            fits = std::min(fits, 1.5 * plan.width / static_cast<double>(names.size()) /
-                                      static_cast<double>(std::max<std::size_t>(name.size(), 8)));
+        for (const std::string& name : names) fits.push_back(fit(name, names.size()));
     }
-    const int size = static_cast<int>(std::max(fits, 7.0));
+    std::sort(fits.begin(), fits.end());
+    const double common = std::min(fits[fits.size() / 4], 0.07 * rows.front().film.height());
     int below = 0;
     for (std::size_t r = 0; r < rows.size(); ++r)
     {
@@ -196,6 +199,8 @@ void label(Picture& picture, const RenderPlan& plan, const std::deque<Row>& rows
         for (std::size_t i = 0; i < names.size(); ++i)
         {
             const float across = scenes[r].across(static_cast<int>(i), aspect);
+            const int size =
+                static_cast<int>(std::max(std::min(common, fit(names[i], names.size())), 7.0));
             set_label(picture, names[i], static_cast<int>(across * float(plan.width)),
                       below + height - height / 20, size);
         }

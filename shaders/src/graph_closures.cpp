@@ -170,17 +170,14 @@ GraphClosures::Node GraphClosures::schlick(const NodeInputs& in)
         const DocumentColor& space = _values.space_of(given);
         if (!space.is_identity())
         {
-            // As declared: from what came of F0 and F82 by a conversion that is linear to where it
-            // came from the document's own numbers are read once more.
-            Imath::C3f own0(1.0f), own82(1.0f), own90(1.0f);
-            const auto read = [&](const char* name, Imath::C3f& c) {
+            // The document's own numbers, before any conversion.
+            const auto own = [&](const char* name) {
+                Imath::C3f c(1.0f);
                 const Element e = DocumentSource::input(in.node, name);
-                if (e && e.has("value"))
-                    std::sscanf(e.attribute("value").c_str(), "%f , %f , %f", &c.x, &c.y, &c.z);
+                if (e && !parse_numbers(e.attribute("value"), 3, &c.x)) c = Imath::C3f(1.0f);
+                return c;
             };
-            read("color0", own0);
-            read("color82", own82);
-            read("color90", own90);
+            const Imath::C3f own0 = own("color0"), own82 = own("color82"), own90 = own("color90");
             const float t = std::pow(6.0f / 7, exponent.x());
             const auto curve = [&](float a, float b) { return a + (b - a) * t; };
             Imath::C3f there;
@@ -219,9 +216,8 @@ GraphClosures::Node GraphClosures::conductor(const NodeInputs& in)
     const auto index = [&](const char* name, float r, float g, float b) {
         const Element given = DocumentSource::input(in.node, name);
         V4f v(r, g, b, 0);
-        if (_values.is_overridden(in.node, name) || !given || !given.has("value"))
-            return in.color(name, r, g, b);
-        if (std::sscanf(given.attribute("value").c_str(), "%f , %f , %f", &v.x, &v.y, &v.z) != 3)
+        if (_values.is_overridden(in.node, name) || !given ||
+            !parse_numbers(given.attribute("value"), 3, &v.x))
             return in.color(name, r, g, b);
         return Value(3, v);
     };

@@ -4,8 +4,8 @@
 #include "graph_values.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <tuple>
 
 REGAIN_NAMESPACE_BEGIN
@@ -70,22 +70,6 @@ bool is_condition(const char* name)
     return std::string(name) == "value1" || std::string(name) == "value2";
 }
 
-bool parse_floats(const std::string& text, int count, float* result)
-{
-    const char* at = text.c_str();
-    for (int k = 0; k < count; ++k)
-    {
-        while (*at == ' ' || *at == '\t' || *at == '\n' || *at == '\r' || (k > 0 && *at == ','))
-            ++at;
-        char* end = nullptr;
-        result[k] = std::strtof(at, &end);
-        if (end == at || !std::isfinite(result[k])) return false;
-        at = end;
-    }
-    while (*at == ' ' || *at == '\t' || *at == '\n' || *at == '\r') ++at;
-    return *at == 0;
-}
-
 int channel_index(char c)
 {
     switch (c)
@@ -111,6 +95,23 @@ AddressMode address_mode(const std::string& name)
 }
 
 }  // namespace
+
+// By no locale: the host's may write numbers with commas.
+bool parse_numbers(const std::string& text, int count, float* result)
+{
+    const char *at = text.data(), *const end = at + text.size();
+    const auto is_space = [](char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; };
+    for (int k = 0; k < count; ++k)
+    {
+        while (at != end && (is_space(*at) || (k > 0 && *at == ','))) ++at;
+        if (at != end && *at == '+') ++at;
+        const auto [next, error] = std::from_chars(at, end, result[k]);
+        if (error != std::errc() || !std::isfinite(result[k])) return false;
+        at = next;
+    }
+    while (at != end && is_space(*at)) ++at;
+    return at == end;
+}
 
 int components(const std::string& type)
 {
@@ -359,7 +360,7 @@ Value GraphValues::constant(const Element& input, const std::string& text, int w
     }
     const int count = declared > 0 ? declared : width;
     float v[4] = {0, 0, 0, 0};
-    if (!parse_floats(text, count, v))
+    if (!parse_numbers(text, count, v))
         _document.fail(input, "'" + text + "' is no " +
                                   (declared > 0 ? type : std::to_string(count) + " numbers"));
     if (type == "color3" || type == "color4")
@@ -455,8 +456,8 @@ Value GraphValues::number(const Element& node, const char* name, const Value& ot
     {
         if (*text == "true" || *text == "false") return Value(*text == "true" ? 1.0f : 0.0f);
         float v[4] = {0, 0, 0, 0};
-        if (parse_floats(*text, 1, v)) return Value(v[0]);
-        if (width == 1 || !parse_floats(*text, width, v))
+        if (parse_numbers(*text, 1, v)) return Value(v[0]);
+        if (width == 1 || !parse_numbers(*text, width, v))
             _document.fail(node, std::string("'") + name + "': '" + *text + "' is no number" +
                                      (width == 1 ? "" : ", nor " + std::to_string(width)));
         return {width, V4f(v[0], v[1], v[2], v[3])};

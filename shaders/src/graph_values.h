@@ -121,6 +121,9 @@ private:
     int _depth = 0;
 };
 
+/// So many finite numbers, divided by commas or spaces, and nothing else.
+bool parse_numbers(const std::string& text, int count, float* result);
+
 /// Components of a type: of float, integer and boolean 1, of color3 3; 0 where it is none of
 /// numbers.
 int components(const std::string& type);

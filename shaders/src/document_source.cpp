@@ -173,8 +173,32 @@ void DocumentSource::add(const std::string& text, const fs::path& name, std::vec
 void DocumentSource::index()
 {
     for (const Element& e : _top)
+    {
         if (e.has("name"))
             _by_name.emplace(_files[static_cast<std::size_t>(e.file)].space + e.name(), e);
+        if (e.category() == "nodedef") _definitions[e.attribute("node")].push_back(e);
+    }
+    for (const Element& e : _top)
+    {
+        if (!e.has("nodedef")) continue;
+        if (e.category() == "nodegraph") _graphs.emplace(e.attribute("nodedef"), e);
+        if (e.category() != "implementation" || !e.has("nodegraph")) continue;
+        if (const Element graph = named(e.attribute("nodegraph"), e))
+            _graphs.emplace(e.attribute("nodedef"), graph);
+    }
+}
+
+const std::vector<Element>& DocumentSource::definitions(const std::string& category) const
+{
+    static const std::vector<Element> none;
+    const auto found = _definitions.find(category);
+    return found == _definitions.end() ? none : found->second;
+}
+
+Element DocumentSource::graph_of(const Element& definition) const
+{
+    const auto found = _graphs.find(definition.name());
+    return found == _graphs.end() ? Element() : found->second;
 }
 
 Element DocumentSource::named(const std::string& name, const Element& from) const

@@ -47,6 +47,10 @@ public:
     const std::vector<Element>& top() const { return _top; }
     /// One of them by its name, as `from` calls it; none where there is none.
     Element named(const std::string& name, const Element& from) const;
+    /// The document's own definitions of a category of nodes, in order.
+    const std::vector<Element>& definitions(const std::string& category) const;
+    /// The graph that does what a definition says; none where there is none.
+    Element graph_of(const Element& definition) const;
     /// A child of a graph by its name.
     Element child_named(const Element& graph, const std::string& name) const;
     /// The input of a node; none where it is not given.
@@ -94,6 +98,8 @@ private:
     std::vector<File> _files;
     std::vector<Element> _top;
     std::map<std::string, Element> _by_name;
+    std::map<std::string, std::vector<Element>> _definitions;  // by category
+    std::map<std::string, Element> _graphs;                    // by the name of the definition
     mutable std::unordered_map<std::size_t, std::unordered_map<std::string, pugi::xml_node>>
         _children;
     std::size_t _bytes = 0, _elements = 0;

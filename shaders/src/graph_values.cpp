@@ -262,9 +262,8 @@ Element GraphValues::definition_of(const Element& node) const
 {
     const std::string type = node.attribute("type");
     Element any;
-    for (const Element& e : _document.top())
+    for (const Element& e : _document.definitions(node.category()))
     {
-        if (e.category() != "nodedef" || e.attribute("node") != node.category()) continue;
         if (node.has("nodedef"))
         {
             if (node.attribute("nodedef") == e.name()) return e;
@@ -276,19 +275,6 @@ Element GraphValues::definition_of(const Element& node) const
         if (!any) any = e;
     }
     return any;
-}
-
-// The graph that does what is defined; none where there is none.
-Element GraphValues::graph_of(const Element& definition) const
-{
-    for (const Element& e : _document.top())
-    {
-        if (e.attribute("nodedef") != definition.name()) continue;
-        if (e.category() == "nodegraph") return e;
-        if (e.category() == "implementation" && e.has("nodegraph"))
-            return _document.named(e.attribute("nodegraph"), e);
-    }
-    return {};
 }
 
 GraphValues::Source GraphValues::answering(const Source& from)
@@ -322,7 +308,7 @@ GraphValues::Source GraphValues::answering(const Source& from)
         }
         else if (const Element definition = definition_of(s.node))
         {
-            graph = graph_of(definition);
+            graph = _document.graph_of(definition);
             if (!graph) return s;
             auto& call = _calls[{s.node.xml.hash_value(), s.call}];
             if (!call) call.reset(new GraphCall{s.node, graph, definition, s.call});

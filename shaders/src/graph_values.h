@@ -93,7 +93,6 @@ private:
     Given find(const Element& node, const char* input, Call);
     static Given declared(const Element& definition, const std::string& input);
     Element definition_of(const Element& node) const;
-    Element graph_of(const Element& definition) const;
     Value constant(const Element& input, const std::string& text, int width);
     Value swizzled(const Value&, const std::string& channels, const Element&);
     Value result(const Source&, int width);

@@ -192,6 +192,23 @@ TEST(DocumentErrors, too_much)
                                            "name='color' type='color3' nodename='n59'/>"
                                            "</oren_nayar_diffuse_bsdf>")),
               "");
+    // As many nodes as there may be, and a definition that each might be of.
+    std::string wide = "<nodedef name='ND' node='none'/>";
+    for (int i = 0; i < 16384; ++i)
+        wide += "<constant name='w0_" + std::to_string(i) + "' type='float'/>";
+    for (int level = 1, n = 8192; n > 0; ++level, n /= 2)
+        for (int i = 0; i < n; ++i)
+        {
+            const std::string below = "w" + std::to_string(level - 1) + "_";
+            wide += "<add name='w" + std::to_string(level) + "_" + std::to_string(i) +
+                    "' type='float'><input name='in1' type='float' nodename='" + below +
+                    std::to_string(2 * i) + "'/><input name='in2' type='float' nodename='" + below +
+                    std::to_string(2 * i + 1) + "'/></add>";
+        }
+    EXPECT_EQ(error_of(document(wide + "<oren_nayar_diffuse_bsdf name='d' type='BSDF'><input "
+                                       "name='roughness' type='float' nodename='w14_0'/>"
+                                       "</oren_nayar_diffuse_bsdf>")),
+              "");
     // The same of closures has more of them than a material may.
     std::string closures = "<translucent_bsdf name='n0' type='BSDF'/>";
     for (int i = 1; i < 40; ++i)

@@ -8,11 +8,48 @@
 #include <regain/shaders/metals.h>
 
 #include <cmath>
+#include <sstream>
 
 REGAIN_NAMESPACE_BEGIN
 namespace shaders {
 
 using Imath::V4f;
+
+namespace {
+
+bool ends_with(const std::string& name, const std::string& end)
+{
+    return name.size() >= end.size() &&
+           name.compare(name.size() - end.size(), end.size(), end) == 0;
+}
+
+// What the number of that name has to be, where v is not.
+const char* range_left_by(const std::string& name, float v)
+{
+    if (ends_with(name, "ior") || ends_with(name, "IOR"))
+        return v > 0 ? nullptr : "an index above 0";
+    // The specular weight of OpenPBR may be above 1: it scales the reflectance.
+    if (name == "specular_weight") return v >= 0 ? nullptr : "a number from 0";
+    if (ends_with(name, "roughness") || ends_with(name, "weight"))
+        return v >= 0 && v <= 1 ? nullptr : "a number from 0 to 1";
+    return nullptr;
+}
+
+}  // namespace
+
+Value NodeInputs::number(const char* name, float otherwise) const
+{
+    const Value v = values.number(node, name, Value(otherwise), call);
+    if (!v.varies())
+        if (const char* range = range_left_by(name, v.x()))
+        {
+            std::ostringstream text;
+            text << "'" << name << "' is " << v.x() << ", and has to be " << range
+                 << "; the nearest that is possible was used";
+            note(text.str());
+        }
+    return v;
+}
 
 void NodeInputs::note_unless_zero(const char* name, const std::string& what) const
 {

@@ -18,10 +18,8 @@ struct NodeInputs
     Element node;
     GraphValues::Call call;
 
-    Value number(const char* name, float otherwise) const
-    {
-        return values.number(node, name, Value(otherwise), call);
-    }
+    /// A roughness, weight or index that is constant and outside its range is noted.
+    Value number(const char* name, float otherwise) const;
     Value color(const char* name, float otherwise) const
     {
         return values.number(node, name, Value(otherwise).as(3), call);

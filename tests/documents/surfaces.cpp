@@ -270,6 +270,16 @@ TEST(DocumentSurfaces, what_is_not_shown_is_noted)
                      "metalness: 'metalness' is no input of UsdPreviewSurface; it has no effect"));
     EXPECT_TRUE(says(noted(document(closure("sheen_bsdf", in("colour", "color3", "1, 1, 1")))),
                      "'colour' is no input of sheen_bsdf"));
+    const auto open_pbr = [&](const char* name, const char* value) {
+        return noted(document(shader("open_pbr_surface", in(name, "float", value))));
+    };
+    EXPECT_TRUE(says(open_pbr("specular_roughness", "-1"),
+                     "'specular_roughness' is -1, and has to be a number from 0 to 1"));
+    EXPECT_TRUE(says(open_pbr("coat_weight", "5"), "'coat_weight' is 5"));
+    EXPECT_TRUE(says(open_pbr("specular_ior", "0"), "'specular_ior' is 0, and has to be an index"));
+    for (const char* possible : {"0", "1"})
+        EXPECT_EQ(open_pbr("specular_roughness", possible), "") << possible;
+    EXPECT_EQ(open_pbr("specular_weight", "2"), "");
     EXPECT_TRUE(says(noted(document(closure("chiang_hair_bsdf", ""))), "nothing in its place"));
     EXPECT_TRUE(
         says(noted(document(closure("dielectric_bsdf", in("distribution", "string", "phong")))),

@@ -265,7 +265,7 @@ int render(const RenderOptions& options)
     {
         const Picture white{picture.width, picture.height,
                             std::vector<Imath::C3f>(picture.pixels.size(), Imath::C3f(1.0f))};
-        write_png(plan.png, false_colour(picture, white, options.scale > 0 ? options.scale : 0.05));
+        write_png(plan.png, false_colour(picture, white, options.scale.value_or(0.05)));
     }
     else
         write_png(plan.png, picture, plan.config, options.display, options.view);
@@ -275,7 +275,7 @@ int render(const RenderOptions& options)
     {
         const Picture shown = as_written(picture);
         difference = difference_of(shown, plan.reference);
-        const double scale = options.scale > 0 ? options.scale : std::max(difference.most, 1e-6);
+        const double scale = options.scale.value_or(std::max(difference.most, 1e-6));
         write_png(fs::path(plan.exr).replace_extension(".difference.png"),
                   false_colour(shown, plan.reference, scale));
     }

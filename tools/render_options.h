@@ -55,7 +55,7 @@ struct RenderOptions
     std::string aovs;
     bool resume = false;
     std::string difference;
-    double scale = 0;
+    std::optional<double> scale;
     std::int64_t samples = 64;
     std::int64_t seed = 1;
     std::string size;

@@ -228,8 +228,8 @@ RenderPlan make_plan(const RenderOptions& options)
         refuse("--environment", options.environment, "does not go with --furnace, which is white");
     if (!(std::abs(options.rotate) <= 3600))
         refuse("--rotate", fmt::format("{}", options.rotate), "takes degrees from -3600 to 3600");
-    if (!(options.scale >= 0 && options.scale <= 1e6))
-        refuse("--scale", fmt::format("{}", options.scale), "takes numbers above 0 up to 1e6");
+    if (options.scale && !(*options.scale > 0 && *options.scale <= 1e6))
+        refuse("--scale", fmt::format("{}", *options.scale), "takes numbers above 0 up to 1e6");
     if (!options.difference.empty())
     {
         plan.reference = read_picture(options.difference);

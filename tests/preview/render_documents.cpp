@@ -346,6 +346,7 @@ TEST_F(RenderDocuments, WhatIsWrongIsSaidAndNothingIsWritten)
     refused({document(), "--furnace", "--environment", "a.exr"}, "does not go with --furnace");
     refused({document(), "--rotate", "nan"}, "--rotate");
     refused({document(), "--scale", "-1"}, "--scale");
+    refused({document(), "--scale", "0"}, "--scale");
     refused({document(), "--turntable", "1"}, "--turntable 1: takes 2 to 9999");
     refused({document(), "--turn", "inf"}, "--turn");
     refused({"--watch"}, "--watch: goes with documents alone");

@@ -72,7 +72,7 @@ void report(const std::string& name, const std::string& label)
                                              s = std::sqrt((1 - mu) * (1 + mu));
                                 const Vec3<double> wo(s * std::cos(phi), s * std::sin(phi), mu);
                                 const auto a = luts::anisotropic_dielectric_albedo(
-                                    unit, width, width / ratio, wo, eta, ggx ? 10 : 16);
+                                    unit, width, width / ratio, wo, eta, 24);
                                 for (const int form : {0, 1})
                                 {
                                     const double E =

@@ -616,7 +616,7 @@ Definition Definition::of(const std::string& name)
             info.length_4 = size[3];
             info.length_5 = size[4];
             info.axis_x = d.family.inside ? "critical_cosine_coordinate(mu, a, eta) of the beta "
-                                            "form, kappa at 3/5"
+                                            "form, kappa at 3/5, spread at low angles"
                                           : "sqrt(mu / (mu + a (1 - mu)))";
             info.axis_y = "3/4 f(tan phi / s) + 1/4 f(tan phi / rho^0.9), f(u) = u^2 / (1 + u^2)";
             info.axis_z = "wider alpha^(3/4)";

@@ -155,7 +155,7 @@ std::shared_ptr<const Lattice> lattice_of(const Definition& d, const BakeProgres
 
 std::array<int, 5> glass_anisotropy_size(bool inside)
 {
-    if (inside) return {31, 22, 8, 10, 12};
+    if (inside) return {39, 22, 8, 10, 13};
     return {25, 13, 7, 7, 7};
 }
 

@@ -18,7 +18,11 @@
 ///           eta < 1    critical_cosine_coordinate(mu, a, eta) of the beta form (see
 ///                      dielectric_tables.h), which has the critical cosine kappa at c = 15/31; up
 ///                      to there 3/5 of the power 5/4 of it over c, beyond 3/5 and 2/5 of the
-///                      power 3/2 of the rest
+///                      power 3/2 of the rest. Of this v
+///                        v (13/20 + 7/20 (1 + t) / (v + t)),   t = 1/15 + 1/5 of the fifth axis,
+///                      as below mu ~ kappa^2 / (2 a), which is v = t for the widest, what is
+///                      refracted at facets that lean towards w turns back to its side, and D
+///                      changes most
 ///     y   of the azimuth, 0 along the wider axis, 1 along the narrower. With t = tan of it,
 ///         rho = the wider width over the narrower, and f(u) = u^2 / (1 + u^2), which is even about
 ///         either axis, as D is,
@@ -77,7 +81,6 @@ struct AnisotropicGlassPlace
             return across2 / detail::max(across2 + u2 * along2, tiny);
         };
 
-        x[0] = cosine(mu, eta, inside);
         x[1] = Real(0.75f) * f(critical_tangent2(mu, rho, eta)) +
                Real(0.25f) * f(detail::exp(detail::constant<Real>(1.8) * log_rho));
         x[2] = detail::sqrt(wide * detail::sqrt(wide));
@@ -86,6 +89,7 @@ struct AnisotropicGlassPlace
                                        detail::constant<Real>(1 / 0.65),
                                    Real(0));
         x[4] = detail::select(inside, Real(0.5f) * u * (Real(3) - u), u);
+        x[0] = cosine(mu, eta, inside);
     }
 
     /// a above.
@@ -112,6 +116,7 @@ struct AnisotropicGlassPlace
     }
 
 private:
+    // Needs x[4].
     Real cosine(const Real& mu, const Real& eta, const MaskOf<Real>& inside) const
     {
         Real above = stretched_cosine(mu, alpha);
@@ -124,7 +129,10 @@ private:
                    rest = detail::max(found - c, Real(0)) / (Real(1) - c);
         const Real moved =
             before * part * detail::sqrt(detail::sqrt(part)) + beyond * rest * detail::sqrt(rest);
-        return detail::select(inside, moved, above);
+        const Real t = detail::constant<Real>(1 / 15.0) + detail::constant<Real>(0.2) * x[4];
+        const Real spread = moved * (detail::constant<Real>(0.65) +
+                                     detail::constant<Real>(0.35) * (Real(1) + t) / (moved + t));
+        return detail::select(inside, spread, above);
     }
 };
 

@@ -22,7 +22,8 @@ namespace luts {
 
 /// `unit` is the law of alpha 1 of a distribution that is stretched without changing its form, GGX
 /// or Beckmann. ax and ay in (0, 1], wo unit with wo.z in (0, 1], eta_o > 0 the index ahead of wo
-/// over the index on its side. `nodes` along each piece: 10 give 1e-4 of GGX, 16 of Beckmann.
+/// over the index on its side. `nodes` along each piece: 24 give 2e-4, and 10 of GGX or 16 of
+/// Beckmann 1e-4 but for places near a critical angle, where they give 6e-3.
 REGAIN_LUTS_API DielectricAlbedo anisotropic_dielectric_albedo(const SlopeLaw& unit, double ax,
                                                                double ay, const Vec3<double>& wo,
                                                                double eta_o, int nodes = 16);

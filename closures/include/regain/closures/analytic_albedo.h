@@ -41,25 +41,25 @@ namespace detail {
 
 /// c0 + c1 x + c2 x^2 ...; coefficients are floats or numbers.
 template <class Real, class C>
-Real polynomial(const Real&, const C& c)
+REGAIN_HOST_DEVICE Real polynomial(const Real&, const C& c)
 {
     return Real(c);
 }
 template <class Real, class C, class... More>
-Real polynomial(const Real& x, const C& c, const More&... more)
+REGAIN_HOST_DEVICE Real polynomial(const Real& x, const C& c, const More&... more)
 {
     return Real(c) + x * polynomial(x, more...);
 }
 
 /// c[0] + c[1] y + c[2] y^2 + x (c[3] + c[4] y) + x^2 c[5].
 template <class Real>
-Real quadratic(const Real& x, const Real& y, const float (&c)[6])
+REGAIN_HOST_DEVICE Real quadratic(const Real& x, const Real& y, const float (&c)[6])
 {
     return polynomial(x, polynomial(y, c[0], c[1], c[2]), polynomial(y, c[3], c[4]), c[5]);
 }
 /// The same of 1 and the others.
 template <class Real>
-Real quadratic(const Real& x, const Real& y, const float (&c)[5])
+REGAIN_HOST_DEVICE Real quadratic(const Real& x, const Real& y, const float (&c)[5])
 {
     return polynomial(x, polynomial(y, 1.0f, c[0], c[1]), polynomial(y, c[2], c[3]), c[4]);
 }
@@ -78,7 +78,7 @@ struct MicrofacetFits
 
     /// Single-scattering albedo with F = 1, in [0, 1].
     template <class Real>
-    Real E_ss(const Real& mu, const Real& alpha) const
+    REGAIN_HOST_DEVICE Real E_ss(const Real& mu, const Real& alpha) const
     {
         using detail::polynomial;
         const float(&n)[10] = loss;
@@ -95,7 +95,7 @@ struct MicrofacetFits
 
     /// 2 int_0^1 E_ss mu dmu.
     template <class Real>
-    Real E_avg(const Real& alpha) const
+    REGAIN_HOST_DEVICE Real E_avg(const Real& alpha) const
     {
         using detail::polynomial;
         const float(&n)[2] = average_loss;
@@ -106,13 +106,13 @@ struct MicrofacetFits
 
     /// Of light past its second facet the share that goes on to another at each.
     template <class Real>
-    Real q_ms(const Real& mu, const Real& alpha) const
+    REGAIN_HOST_DEVICE Real q_ms(const Real& mu, const Real& alpha) const
     {
         return detail::polynomial(alpha, later[0], later[1]) * detail::sqrt(mu);
     }
     /// The cosine at which later facets reflect.
     template <class Real>
-    Real mu_ms(const Real& mu, const Real& alpha) const
+    REGAIN_HOST_DEVICE Real mu_ms(const Real& mu, const Real& alpha) const
     {
         using detail::polynomial;
         const Real s = detail::sqrt(alpha);
@@ -123,7 +123,7 @@ struct MicrofacetFits
 
     /// Means over what is scattered once.
     template <class Real>
-    FresnelMoments<Real> moments(const Real& mu, const Real& alpha) const
+    REGAIN_HOST_DEVICE FresnelMoments<Real> moments(const Real& mu, const Real& alpha) const
     {
         using detail::polynomial;
         const float(&n)[10] = cosine;
@@ -141,17 +141,17 @@ struct MicrofacetFits
 
     /// sqrt(k), m and c of the later bounces' shape.
     template <class Real>
-    Real spread(const Real& alpha) const
+    REGAIN_HOST_DEVICE Real spread(const Real& alpha) const
     {
         return detail::max(in_root(alpha, spread_in_root), Real(0.02f));
     }
     template <class Real>
-    Real forward(const Real& alpha) const
+    REGAIN_HOST_DEVICE Real forward(const Real& alpha) const
     {
         return detail::max(detail::min(in_root(alpha, forward_in_root), Real(1.0f)), Real(0.0f));
     }
     template <class Real>
-    Real tilt(const Real& alpha) const
+    REGAIN_HOST_DEVICE Real tilt(const Real& alpha) const
     {
         return in_root(alpha, tilt_in_root);
     }
@@ -159,12 +159,12 @@ struct MicrofacetFits
 private:
     /// m above; 0 where mu is.
     template <class Real>
-    static Real relative_cosine(const Real& mu, const Real& alpha)
+    REGAIN_HOST_DEVICE static Real relative_cosine(const Real& mu, const Real& alpha)
     {
         return mu / detail::max(mu + alpha, Real(1e-30f));
     }
     template <class Real>
-    static Real in_root(const Real& alpha, const float (&c)[4])
+    REGAIN_HOST_DEVICE static Real in_root(const Real& alpha, const float (&c)[4])
     {
         return detail::polynomial(detail::sqrt(alpha), c[0], c[1], c[2], c[3]);
     }

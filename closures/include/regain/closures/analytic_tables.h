@@ -20,33 +20,43 @@ namespace detail {
 template <class Distribution>
 struct FitsOf
 {
-    static constexpr const MicrofacetFits* value = nullptr;
+    static constexpr bool exist = false;
 };
 template <class Real>
 struct FitsOf<GGX<Real>>
 {
-    static constexpr const MicrofacetFits* value = &ggx_fits;
+    static constexpr bool exist = true;
+    REGAIN_HOST_DEVICE static const MicrofacetFits* get()
+    {
+        static constexpr MicrofacetFits fits = ggx_fits;
+        return &fits;
+    }
 };
 template <class Real>
 struct FitsOf<Beckmann<Real>>
 {
-    static constexpr const MicrofacetFits* value = &beckmann_fits;
+    static constexpr bool exist = true;
+    REGAIN_HOST_DEVICE static const MicrofacetFits* get()
+    {
+        static constexpr MicrofacetFits fits = beckmann_fits;
+        return &fits;
+    }
 };
 
 }  // namespace detail
 
 /// Whether there are formulas for a distribution.
 template <class Distribution>
-constexpr bool has_analytic_tables = detail::FitsOf<Distribution>::value != nullptr;
+constexpr bool has_analytic_tables = detail::FitsOf<Distribution>::exist;
 
 /// The formulas of a distribution, in place of every table of it. They are static: the result may
 /// be kept for ever.
 template <class Distribution>
-MicrofacetTables analytic_tables()
+REGAIN_HOST_DEVICE MicrofacetTables analytic_tables()
 {
     static_assert(has_analytic_tables<Distribution>, "there are formulas for GGX and Beckmann");
     MicrofacetTables tables;
-    tables.fits = detail::FitsOf<Distribution>::value;
+    tables.fits = detail::FitsOf<Distribution>::get();
     return tables;
 }
 

@@ -48,7 +48,8 @@ public:
     using Real = RealType;
 
     template <class Distribution>
-    DirectionalBalance(const Distribution& distribution, const MicrofacetTables& tables)
+    REGAIN_HOST_DEVICE DirectionalBalance(const Distribution& distribution,
+                                          const MicrofacetTables& tables)
         : _balance(tables.balance),
           _axes(distribution),
           _x(distribution.alpha_x()),
@@ -64,10 +65,10 @@ public:
         _narrow_share = Real(1) / detail::sqrt(root);
     }
 
-    explicit operator bool() const { return bool(_balance); }
+    REGAIN_HOST_DEVICE explicit operator bool() const { return bool(_balance); }
 
     /// w is unit, w.z in [0, 1].
-    Real at(const Vec3<Real>& w) const
+    REGAIN_HOST_DEVICE Real at(const Vec3<Real>& w) const
     {
         if (_isotropic) return _axes.directional(_balance, w.z);
 

@@ -56,7 +56,7 @@ namespace detail {
 template <class Distribution, class = void>
 struct TailLength
 {
-    static typename Distribution::Real of(const Distribution&)
+    REGAIN_HOST_DEVICE static typename Distribution::Real of(const Distribution&)
     {
         return typename Distribution::Real(1);
     }
@@ -65,7 +65,7 @@ template <class Distribution>
 struct TailLength<Distribution,
                   std::void_t<decltype(std::declval<const Distribution&>().tail_length())>>
 {
-    static typename Distribution::Real of(const Distribution& distribution)
+    REGAIN_HOST_DEVICE static typename Distribution::Real of(const Distribution& distribution)
     {
         return distribution.tail_length();
     }
@@ -76,7 +76,7 @@ constexpr int anisotropy_terms = 9;
 /// Coordinate of the ratio of two widths, at least 1, along the fourth axis of `anisotropy`; it may
 /// be beyond 1. A quotient of logarithms as above.
 template <class Real>
-Real ratio_coordinate(const Real& ratio)
+REGAIN_HOST_DEVICE Real ratio_coordinate(const Real& ratio)
 {
     constexpr double inv_widest = 1 / 0.69243563973380040;  // of ln(1 + ln(20) / 3)
     return log1p(log(ratio) * constant<Real>(1.0 / 3)) * constant<Real>(inv_widest);
@@ -84,44 +84,49 @@ Real ratio_coordinate(const Real& ratio)
 
 /// k_1, k_2, k_3 above: of a tail of length 0 and of length 1; and, for l in between and beyond,
 /// P and Q of  (1 - l) k(0) + l k(1) + l (1 - l) (P + l Q).
-constexpr double anisotropy_numbers[anisotropy_terms][4][3] = {
-    {{1.082, -2.133, 0.898},
-     {0.6396, -1.983, 1.339},
-     {-0.302, 0.798, -0.611},
-     {0.157, -0.842, 0.855}},
-    {{-4.802, 12.29, -6.434},
-     {-1.244, 4.984, -4.226},
-     {8.841, -12.06, -0.534},
-     {-6.029, 10.258, -2.732}},
-    {{7.239, -22.492, 14.904},
-     {2.967, -9.405, 7.405},
-     {-41.273, 102.515, -57.829},
-     {31.125, -79.122, 47.254}},
-    {{0.157, -0.805, 0.793},
-     {0.0175, -0.3243, 0.5132},
-     {-0.369, -0.069, 0.872},
-     {0.411, -0.461, -0.125}},
-    {{0.753, -1.486, 1.757},
-     {-1.012, 3.348, -2.586},
-     {11.012, -19.827, 3.014},
-     {-10.719, 23.261, -9.489}},
-    {{-3.997, 14.976, -11.428},
-     {1.136, -0.7752, -0.7361},
-     {6.78, -18.257, 10.813},
-     {-3.36, 8.893, -5.366}},
-    {{6.37, -16.481, 11.156},
-     {-0.0993, -1.466, 2.139},
-     {13.91, -39.78, 28.292},
-     {-10.36, 27.928, -18.842}},
-    {{-1.131, 4.03, -3.945},
-     {0.9205, -2.932, 2.245},
-     {-10.106, 29.261, -20.275},
-     {8.69, -25.773, 18.651}},
-    {{-1.35, 5.607, -5.905},
-     {-1.501, 4.259, -3.179},
-     {13.503, -49.922, 43.371},
-     {-10.387, 37.006, -31.21}},
-};
+using AnisotropyNumbers = double[4][3];
+REGAIN_HOST_DEVICE inline const AnisotropyNumbers& anisotropy_numbers(int term)
+{
+    static constexpr AnisotropyNumbers numbers[anisotropy_terms] = {
+        {{1.082, -2.133, 0.898},
+         {0.6396, -1.983, 1.339},
+         {-0.302, 0.798, -0.611},
+         {0.157, -0.842, 0.855}},
+        {{-4.802, 12.29, -6.434},
+         {-1.244, 4.984, -4.226},
+         {8.841, -12.06, -0.534},
+         {-6.029, 10.258, -2.732}},
+        {{7.239, -22.492, 14.904},
+         {2.967, -9.405, 7.405},
+         {-41.273, 102.515, -57.829},
+         {31.125, -79.122, 47.254}},
+        {{0.157, -0.805, 0.793},
+         {0.0175, -0.3243, 0.5132},
+         {-0.369, -0.069, 0.872},
+         {0.411, -0.461, -0.125}},
+        {{0.753, -1.486, 1.757},
+         {-1.012, 3.348, -2.586},
+         {11.012, -19.827, 3.014},
+         {-10.719, 23.261, -9.489}},
+        {{-3.997, 14.976, -11.428},
+         {1.136, -0.7752, -0.7361},
+         {6.78, -18.257, 10.813},
+         {-3.36, 8.893, -5.366}},
+        {{6.37, -16.481, 11.156},
+         {-0.0993, -1.466, 2.139},
+         {13.91, -39.78, 28.292},
+         {-10.36, 27.928, -18.842}},
+        {{-1.131, 4.03, -3.945},
+         {0.9205, -2.932, 2.245},
+         {-10.106, 29.261, -20.275},
+         {8.69, -25.773, 18.651}},
+        {{-1.35, 5.607, -5.905},
+         {-1.501, 4.259, -3.179},
+         {13.503, -49.922, 43.371},
+         {-10.387, 37.006, -31.21}},
+    };
+    return numbers[term];
+}
 
 }  // namespace detail
 
@@ -133,7 +138,7 @@ public:
     using Real = RealType;
 
     template <class Distribution>
-    explicit DirectionAxes(const Distribution& distribution)
+    REGAIN_HOST_DEVICE explicit DirectionAxes(const Distribution& distribution)
         : TableAxes<Real>(distribution), _x(distribution.alpha_x()), _y(distribution.alpha_y())
     {
         _isotropic = detail::all<Real>(_x == _y);
@@ -144,7 +149,7 @@ public:
         const Real R = this->alpha(), bend = l * (Real(1) - l);
         for (int i = 0; i < detail::anisotropy_terms; ++i)
         {
-            const auto& row = detail::anisotropy_numbers[i];
+            const auto& row = detail::anisotropy_numbers(i);
             const auto k = [&](int j) {
                 const auto number = [&](int of) { return detail::constant<Real>(row[of][j]); };
                 return (Real(1) - l) * number(0) + l * number(1) +
@@ -158,13 +163,13 @@ public:
         _ratio = detail::ratio_coordinate<Real>(wider / narrower);
     }
 
-    Real alpha_x() const { return _x; }
-    Real alpha_y() const { return _y; }
+    REGAIN_HOST_DEVICE Real alpha_x() const { return _x; }
+    REGAIN_HOST_DEVICE Real alpha_y() const { return _y; }
     /// R.
-    Real effective_alpha() const { return this->alpha(); }
+    REGAIN_HOST_DEVICE Real effective_alpha() const { return this->alpha(); }
 
     /// The widths are the same: a direction is known by its cosine.
-    bool isotropic() const { return _isotropic; }
+    REGAIN_HOST_DEVICE bool isotropic() const { return _isotropic; }
 
     /// Where the tables of isotropic lobes have w: the axes of a width, and a cosine.
     struct Place
@@ -173,7 +178,7 @@ public:
         Real mu;
     };
     /// w is unit, w.z in [0, 1].
-    Place place(const Vec3<Real>& w) const
+    REGAIN_HOST_DEVICE Place place(const Vec3<Real>& w) const
     {
         if (_isotropic) return {*this, w.z};
 
@@ -195,7 +200,7 @@ public:
     }
 
     /// E_ss of a direction as for place(), at most 1; the table is there.
-    Real albedo(const MicrofacetTables& tables, const Vec3<Real>& w) const
+    REGAIN_HOST_DEVICE Real albedo(const MicrofacetTables& tables, const Vec3<Real>& w) const
     {
         if (_isotropic) return tables.albedo(*this, w.z);
         if (tables.anisotropy) return corrected_albedo(tables, w);
@@ -204,12 +209,12 @@ public:
     }
 
     /// How to draw azimuths by what directions lose.
-    AzimuthSkew<Real> azimuths() const { return {_x, _y}; }
+    REGAIN_HOST_DEVICE AzimuthSkew<Real> azimuths() const { return {_x, _y}; }
 
     /// The mean of value(w) over all azimuths of the cosine mu in [0, 1], of what does not change
     /// when w.x or w.y changes its sign; where the lobe is isotropic, the value of any of them.
     template <class Value>
-    auto azimuth_mean(Real mu, const Value& value) const
+    REGAIN_HOST_DEVICE auto azimuth_mean(Real mu, const Value& value) const
     {
         const Real sine = detail::sqrt(detail::max((Real(1) - mu) * (Real(1) + mu), Real(0)));
         if (_isotropic) return value(Vec3<Real>(sine, Real(0), mu));
@@ -231,7 +236,8 @@ private:
     static constexpr double longest_tail = 1 / 0.7;
 
     // By the table `anisotropy`.
-    Real corrected_albedo(const MicrofacetTables& tables, const Vec3<Real>& w) const
+    REGAIN_HOST_DEVICE Real corrected_albedo(const MicrofacetTables& tables,
+                                             const Vec3<Real>& w) const
     {
         const Real X = _x * w.x, Y = _y * w.y, X2 = X * X, Y2 = Y * Y, tangential = X2 + Y2;
         const Real mu =
@@ -247,7 +253,7 @@ private:
     }
 
     // Coordinate of mu' along the first axis of that table.
-    Real along_cosine(const Real& mu) const
+    REGAIN_HOST_DEVICE Real along_cosine(const Real& mu) const
     {
         if (!this->has_tail()) return plain_cosine(mu, this->alpha());
         const Real x = this->cosine(mu);
@@ -255,7 +261,7 @@ private:
     }
 
     // Cosine of a direction whose tangent, squared, is tangential / z^2.
-    static Real stretched_cosine_of(const Real& z, const Real& tangential)
+    REGAIN_HOST_DEVICE static Real stretched_cosine_of(const Real& z, const Real& tangential)
     {
         return z / detail::sqrt(detail::max(z * z + tangential, detail::constant<Real>(1e-36)));
     }

@@ -28,7 +28,7 @@ public:
     static constexpr double largest_reflectivity = 0.999;
 
     /// Reflectivity r in [0, 0.999] and edge tint g in [0, 1] per channel, clamped; NaN becomes 0.
-    ArtistFresnel(const Color& reflectivity, const Color& edge_tint)
+    REGAIN_HOST_DEVICE ArtistFresnel(const Color& reflectivity, const Color& edge_tint)
         : ArtistFresnel(
               detail::per_channel(
                   reflectivity,
@@ -36,28 +36,31 @@ public:
               detail::per_channel(edge_tint, [](Real v) { return detail::saturate(v); }), Clean())
     {}
 
-    const Color& reflectivity() const { return _reflectivity; }
-    const Color& edge_tint() const { return _edge_tint; }
+    REGAIN_HOST_DEVICE const Color& reflectivity() const { return _reflectivity; }
+    REGAIN_HOST_DEVICE const Color& edge_tint() const { return _edge_tint; }
     /// The same metal by n and k.
-    const ConductorFresnel<Real>& conductor() const { return _conductor; }
+    REGAIN_HOST_DEVICE const ConductorFresnel<Real>& conductor() const { return _conductor; }
 
-    Color at(Real mu) const { return _conductor.at(mu); }
-    Color normal_incidence() const { return _reflectivity; }
-    Color mean(const FresnelMoments<Real>& moments) const { return _conductor.mean(moments); }
+    REGAIN_HOST_DEVICE Color at(Real mu) const { return _conductor.at(mu); }
+    REGAIN_HOST_DEVICE Color normal_incidence() const { return _reflectivity; }
+    REGAIN_HOST_DEVICE Color mean(const FresnelMoments<Real>& moments) const
+    {
+        return _conductor.mean(moments);
+    }
     /// As a conductor's; better than the fit to r and g.
-    Color average() const { return _conductor.average(); }
-    Color exact_average() const { return _conductor.exact_average(); }
+    REGAIN_HOST_DEVICE Color average() const { return _conductor.average(); }
+    REGAIN_HOST_DEVICE Color exact_average() const { return _conductor.exact_average(); }
 
 private:
     struct Clean
     {};
-    ArtistFresnel(const Color& r, const Color& g, Clean)
+    REGAIN_HOST_DEVICE ArtistFresnel(const Color& r, const Color& g, Clean)
         : _reflectivity(r), _edge_tint(g), _conductor(index(r, g), extinction(r, g))
     {}
 
     // n at g = 1.
-    static Real smallest_index(Real r) { return (Real(1) - r) / (Real(1) + r); }
-    static Real index(Real r, Real g)
+    REGAIN_HOST_DEVICE static Real smallest_index(Real r) { return (Real(1) - r) / (Real(1) + r); }
+    REGAIN_HOST_DEVICE static Real index(Real r, Real g)
     {
         const Real root = detail::sqrt(r);
         // (1 + sqrt r) / (1 - sqrt r) without the difference of nearly equal numbers.
@@ -66,18 +69,18 @@ private:
     }
     // k^2 as a product of the sum and the difference of (n + 1) sqrt r and n - 1, of which the
     // second is proportional to g.
-    static Real extinction(Real r, Real g)
+    REGAIN_HOST_DEVICE static Real extinction(Real r, Real g)
     {
         const Real root = detail::sqrt(r), complement = (Real(1) - r) / (Real(1) + root);
         const Real difference = g * (Real(1) + root - smallest_index(r) * complement);
         const Real sum = index(r, g) * (Real(1) + root) - complement;
         return detail::sqrt(detail::max(difference * sum, Real(0)) / (Real(1) - r));
     }
-    static Color index(const Color& r, const Color& g)
+    REGAIN_HOST_DEVICE static Color index(const Color& r, const Color& g)
     {
         return {index(r.x, g.x), index(r.y, g.y), index(r.z, g.z)};
     }
-    static Color extinction(const Color& r, const Color& g)
+    REGAIN_HOST_DEVICE static Color extinction(const Color& r, const Color& g)
     {
         return {extinction(r.x, g.x), extinction(r.y, g.y), extinction(r.z, g.z)};
     }

@@ -26,10 +26,10 @@ public:
     using Real = RealType;
 
     /// Widths in [0, 1].
-    AzimuthSkew(Real alpha_x, Real alpha_y) : _x(alpha_x), _y(alpha_y) {}
+    REGAIN_HOST_DEVICE AzimuthSkew(Real alpha_x, Real alpha_y) : _x(alpha_x), _y(alpha_y) {}
 
     /// 2 pi p above for a unit w with w.z > 0.
-    Real relative_density(const Vec3<Real>& w) const
+    REGAIN_HOST_DEVICE Real relative_density(const Vec3<Real>& w) const
     {
         const Real x2 = w.x * w.x, y2 = w.y * w.y, s2 = x2 + y2;
         const Lengths l(*this, w.z, s2);
@@ -42,7 +42,7 @@ public:
     }
 
     /// A unit w of the cosine mu in (0, 1] for u in [0, 1].
-    Vec3<Real> sample(Real mu, Real u) const
+    REGAIN_HOST_DEVICE Vec3<Real> sample(Real mu, Real u) const
     {
         const Real s2 = detail::max((Real(1) - mu) * (Real(1) + mu), Real(0));
         const Lengths l(*this, mu, s2);
@@ -59,7 +59,7 @@ public:
 private:
     struct Lengths
     {
-        Lengths(const AzimuthSkew& skew, const Real& mu, const Real& s2)
+        REGAIN_HOST_DEVICE Lengths(const AzimuthSkew& skew, const Real& mu, const Real& s2)
             : a2(skew._x * skew._x * s2 + mu * mu), b2(skew._y * skew._y * s2 + mu * mu)
         {}
         Real a2, b2;

@@ -32,10 +32,10 @@ public:
     using Real = RealType;
 
     /// Uniform.
-    AzimuthSpread() : AzimuthSpread(Real(1), Real(0)) {}
+    REGAIN_HOST_DEVICE AzimuthSpread() : AzimuthSpread(Real(1), Real(0)) {}
 
     /// k and m as above, k >= 0 in rad^2 and m in [0, 1].
-    AzimuthSpread(Real k, Real m) : _k(k), _m(m) {}
+    REGAIN_HOST_DEVICE AzimuthSpread(Real k, Real m) : _k(k), _m(m) {}
 
     /// A direction by its cosine and sine.
     struct Polar
@@ -43,7 +43,10 @@ public:
         Real cosine, sine;
 
         /// w is unit, above the horizon.
-        static Polar of(const Vec3<Real>& w) { return {w.z, detail::sqrt(w.x * w.x + w.y * w.y)}; }
+        REGAIN_HOST_DEVICE static Polar of(const Vec3<Real>& w)
+        {
+            return {w.z, detail::sqrt(w.x * w.x + w.y * w.y)};
+        }
     };
 
     /// Phi of one pair of polar angles.
@@ -51,13 +54,13 @@ public:
     {
     public:
         /// 2 pi Phi(phi); phi in [-pi, pi], radians.
-        Real relative_density(Real phi) const
+        REGAIN_HOST_DEVICE Real relative_density(Real phi) const
         {
             return Real(1) - _m + _m * _peak * detail::exp(-_w * phi * phi);
         }
 
         /// phi with the density Phi for u in [0, 1].
-        Real sample(Real u) const
+        REGAIN_HOST_DEVICE Real sample(Real u) const
         {
             const Real tiny = detail::constant<Real>(1e-30), one(1);
             // A u of 1 is ahead where all is: there is no density anywhere else.
@@ -73,7 +76,7 @@ public:
     private:
         friend class AzimuthSpread;
 
-        About(Real w, Real m)
+        REGAIN_HOST_DEVICE About(Real w, Real m)
             : _w(w),
               _m(m),
               // As good as 0, and divides.
@@ -88,7 +91,7 @@ public:
         Real _peak;      // 2 pi N(0)
     };
 
-    About about(const Polar& wo, const Polar& wi) const
+    REGAIN_HOST_DEVICE About about(const Polar& wo, const Polar& wi) const
     {
         const Real sum = wo.cosine + wi.cosine, s = wo.sine * wi.sine;
         // Along the surface the spread vanishes; half a degree is as narrow as it gets.
@@ -98,7 +101,7 @@ public:
     }
 
     /// |phi| of two directions; 0 where one is the normal.
-    static Real azimuth(const Vec3<Real>& wo, const Vec3<Real>& wi)
+    REGAIN_HOST_DEVICE static Real azimuth(const Vec3<Real>& wo, const Vec3<Real>& wi)
     {
         // sin^2 (phi / 2), by whichever of sine and cosine does not cancel.
         const Real ahead = -(wo.x * wi.x + wo.y * wi.y), aside = wo.x * wi.y - wo.y * wi.x;

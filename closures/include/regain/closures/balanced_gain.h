@@ -52,8 +52,8 @@ public:
 
     /// `fresnel` and strength as those of DirectionalGain.
     template <class Distribution>
-    BalancedGain(const Distribution& distribution, const Fresnel& fresnel,
-                 const MicrofacetTables& tables, Real strength)
+    REGAIN_HOST_DEVICE BalancedGain(const Distribution& distribution, const Fresnel& fresnel,
+                                    const MicrofacetTables& tables, Real strength)
         : _tint(distribution, fresnel, tables, strength),
           _balance(distribution, tables),
           _half_strength(Real(0.5f) * detail::saturate(strength))
@@ -62,9 +62,9 @@ public:
         _half_strength = detail::select(distribution.is_delta(), Real(0), _half_strength);
     }
 
-    Color at(const Vec3<Real>&) const { return Color(Real(1)); }
+    REGAIN_HOST_DEVICE Color at(const Vec3<Real>&) const { return Color(Real(1)); }
 
-    Color pair(const Vec3<Real>& wo, const Vec3<Real>& wi) const
+    REGAIN_HOST_DEVICE Color pair(const Vec3<Real>& wo, const Vec3<Real>& wi) const
     {
         return Prepared(*this, wo).pair(wi);
     }
@@ -81,8 +81,10 @@ public:
     class Prepared
     {
     public:
-        Prepared(const BalancedGain& gain, const Vec3<Real>& wo) : _gain(gain), _o(gain.end(wo)) {}
-        Color pair(const Vec3<Real>& wi) const
+        REGAIN_HOST_DEVICE Prepared(const BalancedGain& gain, const Vec3<Real>& wo)
+            : _gain(gain), _o(gain.end(wo))
+        {}
+        REGAIN_HOST_DEVICE Color pair(const Vec3<Real>& wi) const
         {
             if (!_gain._bound) return Color(Real(1));
             const End i = _gain.end(wi);
@@ -96,10 +98,13 @@ public:
 
     /// At full strength; of an anisotropic lobe, which does so to a few thousandths with a table
     /// for it, it is not promised.
-    bool energy_preserving() const { return _bound && _tint.energy_preserving(); }
+    REGAIN_HOST_DEVICE bool energy_preserving() const
+    {
+        return _bound && _tint.energy_preserving();
+    }
 
 private:
-    End end(const Vec3<Real>& w) const
+    REGAIN_HOST_DEVICE End end(const Vec3<Real>& w) const
     {
         if (!_bound) return {};
         const Real mu = detail::saturate(w.z);
@@ -115,7 +120,7 @@ private:
 /// The lobe compensated by its balanced gain at strength s in [0, 1]. The tables serve the gain
 /// and, unless the lobe has its own, its albedo.
 template <class Lobe>
-Compensated<Lobe, BalancedGain<typename Lobe::Fresnel>> balanced(
+REGAIN_HOST_DEVICE Compensated<Lobe, BalancedGain<typename Lobe::Fresnel>> balanced(
     Lobe lobe, const MicrofacetTables& tables,
     typename Lobe::Real strength = typename Lobe::Real(1))
 {

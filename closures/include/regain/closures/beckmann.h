@@ -31,7 +31,7 @@ namespace detail {
 /// The slope x > -c whose density is proportional to (c + x)+ exp(-x^2), as a function of the part
 /// u of the distribution that lies beyond x.
 template <class Real>
-Real visible_gaussian_slope(const Real& cotangent, const Real& u);
+REGAIN_HOST_DEVICE Real visible_gaussian_slope(const Real& cotangent, const Real& u);
 
 }  // namespace detail
 
@@ -49,14 +49,14 @@ public:
 
     /// Widths along x and y in [0, 1]; outside they are clamped, NaN becomes 1. One axis narrower
     /// than delta_alpha is widened to it unless both are.
-    explicit Beckmann(Real alpha_x, Real alpha_y) : Widths(alpha_x, alpha_y) {}
-    explicit Beckmann(Real alpha) : Beckmann(alpha, alpha) {}
+    REGAIN_HOST_DEVICE explicit Beckmann(Real alpha_x, Real alpha_y) : Widths(alpha_x, alpha_y) {}
+    REGAIN_HOST_DEVICE explicit Beckmann(Real alpha) : Beckmann(alpha, alpha) {}
 
     /// Of slopes, which have none: see anisotropy.h.
-    Real tail_length() const { return Real(0); }
+    REGAIN_HOST_DEVICE Real tail_length() const { return Real(0); }
 
     /// D of the normal m along h, which need not be unit: length2 = h.h. Per steradian.
-    Real D(const Vec3<Real>& h, Real length2) const
+    REGAIN_HOST_DEVICE Real D(const Vec3<Real>& h, Real length2) const
     {
         // Half of the exponential with each power of the cosine: neither can overflow alone. D
         // never is 0, so that it may be divided by; what that adds is below any rounding.
@@ -66,34 +66,34 @@ public:
         const Real r = detail::max(length2 * inv_z2 * gauss, detail::constant<Real>(least));
         return _normalisation * r * r;
     }
-    Real D(const Vec3<Real>& m) const { return D(m, Real(1)); }
+    REGAIN_HOST_DEVICE Real D(const Vec3<Real>& m) const { return D(m, Real(1)); }
 
     /// Projected area of the visible microsurface, sigma(w) above; w.z may have either sign.
-    Real projected_area(const Vec3<Real>& w) const
+    REGAIN_HOST_DEVICE Real projected_area(const Vec3<Real>& w) const
     {
         return detail::max(w.z, Real(0)) + excess_area(w);
     }
 
     /// Lambda(w) for w.z > 0.
-    Real lambda(const Vec3<Real>& w) const { return excess_area(w) / w.z; }
+    REGAIN_HOST_DEVICE Real lambda(const Vec3<Real>& w) const { return excess_area(w) / w.z; }
 
     /// The visible normals of one wo.
     class Visible
     {
     public:
-        Visible(const Beckmann& beckmann, const Vec3<Real>& wo)
+        REGAIN_HOST_DEVICE Visible(const Beckmann& beckmann, const Vec3<Real>& wo)
             : _frame(beckmann._alpha_x, beckmann._alpha_y, wo),
               _projected_area(beckmann.projected_area(wo))
         {}
 
         /// sigma(wo).
-        Real projected_area() const { return _projected_area; }
+        REGAIN_HOST_DEVICE Real projected_area() const { return _projected_area; }
 
         /// Factor that turns D(m) into the density of the reflected direction, per steradian.
-        Real reflected_density() const { return Real(0.25f) / _projected_area; }
+        REGAIN_HOST_DEVICE Real reflected_density() const { return Real(0.25f) / _projected_area; }
 
         /// A visible normal for u in [0, 1)^3, of which x and y are read; unit, z > 0.
-        Vec3<Real> sample(const Vec3<Real>& u) const
+        REGAIN_HOST_DEVICE Vec3<Real> sample(const Vec3<Real>& u) const
         {
             const Real along =
                 detail::visible_gaussian_slope(_frame.cotangent(), detail::saturate(u.x));
@@ -107,13 +107,13 @@ public:
     };
 
     /// All visible normals; wo.z may have either sign.
-    Visible visible(const Vec3<Real>& wo) const { return Visible(*this, wo); }
+    REGAIN_HOST_DEVICE Visible visible(const Vec3<Real>& wo) const { return Visible(*this, wo); }
     /// The same: every visible normal may be sampled, also those that reflect downwards.
-    Visible reflecting(const Vec3<Real>& wo) const { return Visible(*this, wo); }
+    REGAIN_HOST_DEVICE Visible reflecting(const Vec3<Real>& wo) const { return Visible(*this, wo); }
 
 private:
     // sigma(w) - max(0, w.z) = s ierfc(|c| / s) / 2: what sigma(w) and sigma(-w) share.
-    Real excess_area(const Vec3<Real>& w) const
+    REGAIN_HOST_DEVICE Real excess_area(const Vec3<Real>& w) const
     {
         const Real s =
             detail::max(detail::sqrt(this->tangential2(w)), detail::constant<Real>(1e-18));
@@ -130,7 +130,7 @@ constexpr int slope_steps = 12;
 
 /// Whether the next step would be below rounding: its length goes with the cube of the last.
 template <class Real>
-bool slope_found(const Real& last_step, const Real& height)
+REGAIN_HOST_DEVICE bool slope_found(const Real& last_step, const Real& height)
 {
     const Real small = constant<Real>(sizeof(ScalarOf<Real>) == 4 ? 6e-3 : 3e-6);
     return all<Real>(abs(last_step) <= small * min(height, Real(1)));
@@ -139,7 +139,7 @@ bool slope_found(const Real& last_step, const Real& height)
 /// The same where c >= 0. Nothing cancels in Q(x) = int_x^inf (c + x) exp(-x^2); Q / (1 + c) is
 /// what is computed, so that c may be large.
 template <class Real>
-Real visible_gaussian_slope_above(const Real& cotangent, const Real& u)
+REGAIN_HOST_DEVICE Real visible_gaussian_slope_above(const Real& cotangent, const Real& u)
 {
     using Mask = MaskOf<Real>;
     const Real c = min(cotangent, Real(1e8f)), scale = Real(1) / (Real(1) + c);
@@ -182,7 +182,7 @@ Real visible_gaussian_slope_above(const Real& cotangent, const Real& u)
 /// The same where c = -a < 0: all relative to exp(-a^2), which underflows. With
 /// r = erfcx_deficit, Q(x) / Q(a) = exp(a^2 - x^2) (x - a + a r(x)) / (x r(a)).
 template <class Real>
-Real visible_gaussian_slope_below(const Real& cotangent, const Real& u)
+REGAIN_HOST_DEVICE Real visible_gaussian_slope_below(const Real& cotangent, const Real& u)
 {
     const Real a = min(-cotangent, Real(1e8f)), deficit = erfcx_deficit(a);
     const Real goal = log(u);
@@ -207,7 +207,7 @@ Real visible_gaussian_slope_below(const Real& cotangent, const Real& u)
 }
 
 template <class Real>
-Real visible_gaussian_slope(const Real& cotangent, const Real& number)
+REGAIN_HOST_DEVICE Real visible_gaussian_slope(const Real& cotangent, const Real& number)
 {
     constexpr double ulp = sizeof(ScalarOf<Real>) == 4 ? 0x1p-25 : 0x1p-54;
     const Real u = min(max(number, constant<Real>(ulp)), constant<Real>(1 - 2 * ulp));

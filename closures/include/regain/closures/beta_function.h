@@ -32,7 +32,7 @@ struct Lanczos
     static constexpr double g =
         is_float ? 1.428456135094165802001953125 : 6.024680040776729583740234375;
 
-    static Real at(Real z)
+    REGAIN_HOST_DEVICE static Real at(Real z)
     {
         // Both polynomials in 1 / z, which is at most 1.
         if constexpr (is_float)
@@ -70,7 +70,8 @@ struct Lanczos
 
 private:
     template <int n>
-    static Real quotient(const double (&top)[n], const double (&bottom)[n], Real x)
+    REGAIN_HOST_DEVICE static Real quotient(const double (&top)[n], const double (&bottom)[n],
+                                            Real x)
     {
         Real a = constant<Real>(top[n - 1]), b = constant<Real>(bottom[n - 1]);
         for (int i = n - 2; i >= 0; --i)
@@ -86,7 +87,7 @@ private:
 
 /// B(1 + a, 1 + b), in (0, 1]; a and b in [0, 1e30]. 0 where it underflows.
 template <class Real>
-Real beta_function(Real a, Real b)
+REGAIN_HOST_DEVICE Real beta_function(Real a, Real b)
 {
     using L = detail::Lanczos<Real>;
     const Real one(1), half(0.5f), g = detail::constant<Real>(L::g + 0.5);
@@ -106,7 +107,7 @@ Real beta_function(Real a, Real b)
 /// (1 + a) B(1 + a, 1 + b) = B(1 + a, 1 + b) / B(1 + a, 1), in (0, 1]: G2 / G1(wo), which stays
 /// finite at grazing angles, where a is large.
 template <class Real>
-Real beta_quotient(Real a, Real b)
+REGAIN_HOST_DEVICE Real beta_quotient(Real a, Real b)
 {
     return detail::min((Real(1) + a) * beta_function(a, b), Real(1));
 }

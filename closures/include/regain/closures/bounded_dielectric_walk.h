@@ -54,11 +54,13 @@ public:
     /// whatever it met before. eval_samples: walks that an eval takes, at least 1. `tables`, of
     /// this distribution and the beta form, and `forward` of `shape` sharpen the pdf.
     /// bounces: N, in [2, 32], clamped.
-    BoundedDielectricWalk(const Distribution& distribution, Real eta,
-                          const Color& reflection_tint = Color(Real(1)),
-                          const Color& transmission_tint = Color(Real(1)), int eval_samples = 1,
-                          const DielectricTables& tables = {}, const MicrofacetTables& shape = {},
-                          int bounces = default_bounces)
+    REGAIN_HOST_DEVICE BoundedDielectricWalk(const Distribution& distribution, Real eta,
+                                             const Color& reflection_tint = Color(Real(1)),
+                                             const Color& transmission_tint = Color(Real(1)),
+                                             int eval_samples = 1,
+                                             const DielectricTables& tables = {},
+                                             const MicrofacetTables& shape = {},
+                                             int bounces = default_bounces)
         : _lobe(distribution, eta, ScatterMode::RT, reflection_tint, transmission_tint,
                 TransmissionShadowing::beta, tables),
           _forward(detail::later_forward<Real>(shape, distribution)),
@@ -68,14 +70,14 @@ public:
                                             : bounces)
     {}
 
-    const Distribution& distribution() const { return _lobe.distribution(); }
-    Real eta() const { return _lobe.eta(); }
-    const Color& reflection_tint() const { return _lobe.reflection_tint(); }
-    const Color& transmission_tint() const { return _lobe.transmission_tint(); }
-    int eval_samples() const { return _eval_samples; }
-    int bounces() const { return _bounces; }
+    REGAIN_HOST_DEVICE const Distribution& distribution() const { return _lobe.distribution(); }
+    REGAIN_HOST_DEVICE Real eta() const { return _lobe.eta(); }
+    REGAIN_HOST_DEVICE const Color& reflection_tint() const { return _lobe.reflection_tint(); }
+    REGAIN_HOST_DEVICE const Color& transmission_tint() const { return _lobe.transmission_tint(); }
+    REGAIN_HOST_DEVICE int eval_samples() const { return _eval_samples; }
+    REGAIN_HOST_DEVICE int bounces() const { return _bounces; }
 
-    Traits traits() const
+    REGAIN_HOST_DEVICE Traits traits() const
     {
         Traits t = _lobe.traits();
         t.energy_preserving = true;
@@ -88,7 +90,7 @@ public:
     class Prepared
     {
     public:
-        Prepared(const BoundedDielectricWalk& closure, const Vec3<Real>& wo)
+        REGAIN_HOST_DEVICE Prepared(const BoundedDielectricWalk& closure, const Vec3<Real>& wo)
             : _distribution(closure.distribution()),
               _samples(closure._eval_samples),
               _bounces(closure._bounces),
@@ -112,18 +114,18 @@ public:
                 _later = {_distribution.effective_alpha(), closure._forward, _ahead.eta, _wo.z};
         }
 
-        Vec3<Real> wo() const { return turned(_wo); }
+        REGAIN_HOST_DEVICE Vec3<Real> wo() const { return turned(_wo); }
 
         /// Multiplies the closure weight: all that eval, sample and albedo return, and no direction
         /// or pdf.
-        void scale_by(const Color& weight)
+        REGAIN_HOST_DEVICE void scale_by(const Color& weight)
         {
             _reflection *= weight;
             _transmission *= weight;
         }
 
         /// An estimate that is unbiased but for what the bound does; u in [0, 1)^3.
-        Color eval(const Vec3<Real>& direction, const Vec3<Real>& u) const
+        REGAIN_HOST_DEVICE Color eval(const Vec3<Real>& direction, const Vec3<Real>& u) const
         {
             const Vec3<Real> wi = safe(direction);
             const Mask beyond = wi.z < Real(0);
@@ -147,7 +149,7 @@ public:
         }
 
         /// u in [0, 1)^3. The weight is not eval / pdf: see walk.h.
-        Sample<Real> sample(const Vec3<Real>& u) const
+        REGAIN_HOST_DEVICE Sample<Real> sample(const Vec3<Real>& u) const
         {
             const WalkPath<Real> p = path(u);
             Sample<Real> s;
@@ -166,16 +168,16 @@ public:
             return s;
         }
 
-        Real pdf(const Vec3<Real>& wi) const
+        REGAIN_HOST_DEVICE Real pdf(const Vec3<Real>& wi) const
         {
             return detail::select(answers(wi), density(safe(wi)), Real(0));
         }
 
         /// The mean weight of 1024 walks.
-        Albedo<Real> albedo() const { return detail::mean_weight<Real>(*this); }
+        REGAIN_HOST_DEVICE Albedo<Real> albedo() const { return detail::mean_weight<Real>(*this); }
 
         /// One walk, with what sample does not tell.
-        WalkPath<Real> path(const Vec3<Real>& u) const
+        REGAIN_HOST_DEVICE WalkPath<Real> path(const Vec3<Real>& u) const
         {
             RandomStream<Real> stream(Vec3<Real>(u.z, u.x, u.y));
             const Real first = stream.next();
@@ -215,7 +217,7 @@ public:
         using Visible = decltype(std::declval<const Distribution&>().visible(Vec3<Real>()));
 
         // 1 - E^S, not quite 0, so that the pdf is positive.
-        Real lost(const BoundedDielectricWalk& closure) const
+        REGAIN_HOST_DEVICE Real lost(const BoundedDielectricWalk& closure) const
         {
             if (!_knows_rest) return Real(0);
             return detail::max(
@@ -223,9 +225,15 @@ public:
                                                         detail::min(_wo.z, Real(1))),
                 detail::constant<Real>(1e-4));
         }
-        Vec3<Real> turned(const Vec3<Real>& w) const { return {w.x, w.y, w.z * _side}; }
-        static Vec3<Real> outward(const Vec3<Real>& w) { return {w.x, w.y, detail::abs(w.z)}; }
-        Color tint(const Mask& beyond) const
+        REGAIN_HOST_DEVICE Vec3<Real> turned(const Vec3<Real>& w) const
+        {
+            return {w.x, w.y, w.z * _side};
+        }
+        REGAIN_HOST_DEVICE static Vec3<Real> outward(const Vec3<Real>& w)
+        {
+            return {w.x, w.y, detail::abs(w.z)};
+        }
+        REGAIN_HOST_DEVICE Color tint(const Mask& beyond) const
         {
             return detail::select(beyond, _transmission, _reflection);
         }
@@ -233,7 +241,7 @@ public:
         // Light between two facets.
         struct Flight
         {
-            Flight(const Vec3<Real>& against, const Visible& normals)
+            REGAIN_HOST_DEVICE Flight(const Vec3<Real>& against, const Visible& normals)
                 : v(against), visible(normals), area(detail::visible_area(visible)), below(false)
             {}
 
@@ -242,12 +250,12 @@ public:
             Real area;        // sigma(v)
             Mask below;       // on the other side than where it started
         };
-        static Real third(RandomStream<Real>& stream)
+        REGAIN_HOST_DEVICE static Real third(RandomStream<Real>& stream)
         {
             return Distribution::random_numbers > 2 ? stream.next() : Real(0);
         }
 
-        Mask answers(const Vec3<Real>& wi) const
+        REGAIN_HOST_DEVICE Mask answers(const Vec3<Real>& wi) const
         {
             const Mask beyond = detail::quiet_less(wi.z * _side, Real(0));
             return detail::both<Real>(
@@ -255,21 +263,21 @@ public:
                 !detail::both<Real>(_narrow, beyond));
         }
         // On the side of wo.
-        Vec3<Real> safe(const Vec3<Real>& wi) const
+        REGAIN_HOST_DEVICE Vec3<Real> safe(const Vec3<Real>& wi) const
         {
             return detail::select(detail::is_off_horizon(wi), turned(wi),
                                   Vec3<Real>(Real(0), Real(0), Real(1)));
         }
 
         // sigma(v) times the density of wi after one facet, in the frame of v's side.
-        Real reflected(const Vec3<Real>& v, const Vec3<Real>& wi,
-                       const RelativeIndex<Real>& index) const
+        REGAIN_HOST_DEVICE Real reflected(const Vec3<Real>& v, const Vec3<Real>& wi,
+                                          const RelativeIndex<Real>& index) const
         {
             const detail::FacetReflection<Real> facet(_distribution, v, wi);
             return facet.quarter_D * DielectricFresnel<Real>(index).reflectance(facet.cosine);
         }
-        Real refracted(const Vec3<Real>& v, const Vec3<Real>& wi,
-                       const RelativeIndex<Real>& index) const
+        REGAIN_HOST_DEVICE Real refracted(const Vec3<Real>& v, const Vec3<Real>& wi,
+                                          const RelativeIndex<Real>& index) const
         {
             const detail::FacetRefraction<Real> facet(_distribution, v, wi, index);
             return facet.D_jacobian *
@@ -279,8 +287,8 @@ public:
         // sigma(v) times the density with which a facet on the side `from` sends what comes from v
         // along w, up to either side, where `to` tells the side; both in the frames of their sides.
         // The indices are those of that facet.
-        Real kernel(const Vec3<Real>& v, const Mask& from, const Vec3<Real>& w, const Mask& to,
-                    const RelativeIndex<Real>& index) const
+        REGAIN_HOST_DEVICE Real kernel(const Vec3<Real>& v, const Mask& from, const Vec3<Real>& w,
+                                       const Mask& to, const RelativeIndex<Real>& index) const
         {
             const Mask crosses = detail::differ<Real>(from, to);
             Real value(0);
@@ -291,7 +299,7 @@ public:
         }
 
         // What leaves after one bounce; up is wi in the frame of its own side.
-        Real single(const Vec3<Real>& up, const Mask& beyond) const
+        REGAIN_HOST_DEVICE Real single(const Vec3<Real>& up, const Mask& beyond) const
         {
             const Real area = _visible.projected_area();
             Real leaves(0);
@@ -307,8 +315,8 @@ public:
 
         // An estimate of what leaves at later facets, by a walk from wo or, where `place` is beyond
         // its share, from wi. Sides are told from that end.
-        Real later(const Vec3<Real>& up, const Mask& beyond, const Real& place, const Vec3<Real>& u,
-                   RandomStream<Real>& stream) const
+        REGAIN_HOST_DEVICE Real later(const Vec3<Real>& up, const Mask& beyond, const Real& place,
+                                      const Vec3<Real>& u, RandomStream<Real>& stream) const
         {
             // What passes undeflected is not joined with anything. An eighth at least starts from
             // wo, since only that knows of light beyond the bound.
@@ -391,16 +399,17 @@ public:
 
         // Where transmission is a delta lobe the surface deflects nothing, and that it is crossed
         // again and again at grazing angles, about 1 / mu times, changes nothing.
-        Mask passed(const Flight& f) const
+        REGAIN_HOST_DEVICE Mask passed(const Flight& f) const
         {
             return detail::both<Real>(detail::both<Real>(_narrow, f.below), f.v.z < Real(0));
         }
 
         // At the next facet, in the lanes `active`; indices ahead of light where it started, and on
         // the other side.
-        void scatter(Flight& f, Depth& depth, const Vec3<Real>& u, const Real& choice,
-                     const Real& first, const Mask& active, const RelativeIndex<Real>& ahead,
-                     const RelativeIndex<Real>& behind) const
+        REGAIN_HOST_DEVICE void scatter(Flight& f, Depth& depth, const Vec3<Real>& u,
+                                        const Real& choice, const Real& first, const Mask& active,
+                                        const RelativeIndex<Real>& ahead,
+                                        const RelativeIndex<Real>& behind) const
         {
             const Vec3<Real> z(Real(0), Real(0), Real(1));
             const Vec3<Real> m = detail::select(_flat, z, f.visible.sample(u));
@@ -424,7 +433,7 @@ public:
             f.area = detail::visible_area(f.visible);
         }
         // Near the density of sample, per steradian; wi on the side of wo.
-        Real density(const Vec3<Real>& wi) const
+        REGAIN_HOST_DEVICE Real density(const Vec3<Real>& wi) const
         {
             Real value(0);
             // Where light passes undeflected there is nothing to know.
@@ -457,10 +466,10 @@ public:
         Color _reflection, _transmission;  // what multiplies the lobes
     };
 
-    Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
+    REGAIN_HOST_DEVICE Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
 
 private:
-    bool isotropic() const
+    REGAIN_HOST_DEVICE bool isotropic() const
     {
         return detail::all<Real>(distribution().alpha_x() == distribution().alpha_y());
     }

@@ -55,7 +55,7 @@ namespace detail {
 
 /// What remains of light that has met n facets and goes on, where x is its last reflectance.
 template <class Real>
-Color3<Real> closing_tint(const Color3<Real>& x, int n)
+REGAIN_HOST_DEVICE Color3<Real> closing_tint(const Color3<Real>& x, int n)
 {
     const Real more(static_cast<ScalarOf<Real>>(n));
     return per_channel(x, [&](const Real& F) { return F / (Real(1) + more * (Real(1) - F)); });
@@ -63,12 +63,12 @@ Color3<Real> closing_tint(const Color3<Real>& x, int n)
 
 /// Density 3 cos^2 / (2 pi), per steradian; z = |cos theta|.
 template <class Real>
-Real closing_density(const Real& z)
+REGAIN_HOST_DEVICE Real closing_density(const Real& z)
 {
     return z * z * constant<Real>(0.477464829275686007);
 }
 template <class Real>
-Vec3<Real> closing_direction(const Real& u, const Real& v)
+REGAIN_HOST_DEVICE Vec3<Real> closing_direction(const Real& u, const Real& v)
 {
     const Real z = min(pow(max(u, constant<Real>(1e-18)), constant<Real>(1.0 / 3)), Real(1));
     const Real sine = detail::sqrt((Real(1) - z) * (Real(1) + z));
@@ -78,7 +78,7 @@ Vec3<Real> closing_direction(const Real& u, const Real& v)
 
 /// The ratio R of bounded_walk.h as it enters weights, at the k-th facet.
 template <class Real>
-Real tempered_ratio(const Real& R, int k)
+REGAIN_HOST_DEVICE Real tempered_ratio(const Real& R, int k)
 {
     const Real ten(10);
     return k == 2 ? R : max(R / ten, min(R * ten, Real(1)));
@@ -86,7 +86,7 @@ Real tempered_ratio(const Real& R, int k)
 
 /// |cos theta| of a ray, of which quotients are finite.
 template <class Real>
-Real steepness(const Real& z)
+REGAIN_HOST_DEVICE Real steepness(const Real& z)
 {
     return max(abs(z), constant<Real>(horizon));
 }
@@ -109,8 +109,9 @@ public:
     /// eval_samples: walks that an eval takes, at least 1. `tables` sharpen the pdf, which takes
     /// E_ss, E_avg, spread and forward, and make albedo() a look-up. bounces: N, in [2, 32],
     /// clamped.
-    BoundedWalk(const Distribution& distribution, const Fresnel& fresnel, int eval_samples = 1,
-                const MicrofacetTables& tables = {}, int bounces = default_bounces)
+    REGAIN_HOST_DEVICE BoundedWalk(const Distribution& distribution, const Fresnel& fresnel,
+                                   int eval_samples = 1, const MicrofacetTables& tables = {},
+                                   int bounces = default_bounces)
         : _distribution(distribution),
           _fresnel(fresnel),
           _later(distribution, tables),
@@ -120,14 +121,14 @@ public:
                                             : bounces)
     {}
 
-    const Distribution& distribution() const { return _distribution; }
-    const Fresnel& fresnel() const { return _fresnel; }
-    const MicrofacetTables& tables() const { return _later.tables(); }
-    int eval_samples() const { return _eval_samples; }
-    int bounces() const { return _bounces; }
+    REGAIN_HOST_DEVICE const Distribution& distribution() const { return _distribution; }
+    REGAIN_HOST_DEVICE const Fresnel& fresnel() const { return _fresnel; }
+    REGAIN_HOST_DEVICE const MicrofacetTables& tables() const { return _later.tables(); }
+    REGAIN_HOST_DEVICE int eval_samples() const { return _eval_samples; }
+    REGAIN_HOST_DEVICE int bounces() const { return _bounces; }
 
     /// Reciprocal but for light beyond N facets.
-    Traits traits() const
+    REGAIN_HOST_DEVICE Traits traits() const
     {
         Traits t;
         t.reciprocal = true;
@@ -142,7 +143,7 @@ public:
     class Prepared
     {
     public:
-        Prepared(const BoundedWalk& closure, const Vec3<Real>& wo)
+        REGAIN_HOST_DEVICE Prepared(const BoundedWalk& closure, const Vec3<Real>& wo)
             : _closure(closure),
               _delta(closure._distribution.is_delta()),
               _valid(detail::is_above_horizon(wo)),
@@ -156,14 +157,14 @@ public:
                         : Real(0))
         {}
 
-        const Vec3<Real>& wo() const { return _wo; }
+        REGAIN_HOST_DEVICE const Vec3<Real>& wo() const { return _wo; }
 
         /// Multiplies the closure weight: all that eval, sample and albedo return, and no direction
         /// or pdf.
-        void scale_by(const Color& weight) { _weight *= weight; }
+        REGAIN_HOST_DEVICE void scale_by(const Color& weight) { _weight *= weight; }
 
         /// An estimate that is unbiased but for what the bound does; u in [0, 1)^3.
-        Color eval(const Vec3<Real>& direction, const Vec3<Real>& u) const
+        REGAIN_HOST_DEVICE Color eval(const Vec3<Real>& direction, const Vec3<Real>& u) const
         {
             const Vec3<Real> wi = detail::select(detail::is_above_horizon(direction), direction,
                                                  Vec3<Real>(Real(0), Real(0), Real(1)));
@@ -188,7 +189,7 @@ public:
         }
 
         /// u in [0, 1)^3. The weight is not eval / pdf: see walk.h.
-        Sample<Real> sample(const Vec3<Real>& u) const
+        REGAIN_HOST_DEVICE Sample<Real> sample(const Vec3<Real>& u) const
         {
             const WalkPath<Real> p = path(u);
             Sample<Real> s;
@@ -200,7 +201,7 @@ public:
             return s;
         }
 
-        Real pdf(const Vec3<Real>& wi) const
+        REGAIN_HOST_DEVICE Real pdf(const Vec3<Real>& wi) const
         {
             const Mask above = detail::is_above_horizon(wi);
             const Vec3<Real> safe =
@@ -211,7 +212,7 @@ public:
 
         /// With E_ss, falloff, dip, q_ms and mu_ms what `directional` says, within 0.007 of the
         /// walk's for GGX and Beckmann. Without, the mean weight of 1024 walks.
-        Albedo<Real> albedo() const
+        REGAIN_HOST_DEVICE Albedo<Real> albedo() const
         {
             const MicrofacetTables& t = _closure.tables();
             if (!(t.has_albedo() && t.has_moments() && t.has_later_bounces()))
@@ -226,7 +227,7 @@ public:
         }
 
         /// One walk, with what sample does not tell.
-        WalkPath<Real> path(const Vec3<Real>& u) const
+        REGAIN_HOST_DEVICE WalkPath<Real> path(const Vec3<Real>& u) const
         {
             constexpr bool three = Distribution::random_numbers > 2;
             const Distribution& distribution = _closure._distribution;
@@ -283,7 +284,7 @@ public:
         // A ray between two facets.
         struct Ray
         {
-            Ray(const Distribution& distribution, const Vec3<Real>& direction)
+            REGAIN_HOST_DEVICE Ray(const Distribution& distribution, const Vec3<Real>& direction)
                 : d(direction),
                   visible(distribution.visible(-direction)),
                   area(detail::visible_area(visible)),
@@ -292,16 +293,16 @@ public:
             {}
 
             /// True where it leaves; u as in WalkPhases.
-            Mask rises(Phases& phases, const Real& u, const Mask& lanes) const
+            REGAIN_HOST_DEVICE Mask rises(Phases& phases, const Real& u, const Mask& lanes) const
             {
                 return phases.rise(z, area, u, detail::both<Real>(lanes, up));
             }
-            void sinks(Phases& phases, const Mask& lanes) const
+            REGAIN_HOST_DEVICE void sinks(Phases& phases, const Mask& lanes) const
             {
                 phases.sink(z, area, detail::both<Real>(lanes, !up));
             }
             /// Probability that it meets a facet.
-            Real stays(const Phases& phases) const
+            REGAIN_HOST_DEVICE Real stays(const Phases& phases) const
             {
                 return detail::select(up, phases.stay_probability(z, area), Real(1));
             }
@@ -318,8 +319,8 @@ public:
         };
 
         // Where the first facet reflects w, and its F.
-        Facet first_facet(const Vec3<Real>& w, const Visible& visible, const Vec3<Real>& u,
-                          Color& F) const
+        REGAIN_HOST_DEVICE Facet first_facet(const Vec3<Real>& w, const Visible& visible,
+                                             const Vec3<Real>& u, Color& F) const
         {
             const Vec3<Real> up(Real(0), Real(0), Real(1));
             const Vec3<Real> m = detail::select(_delta, up, visible.sample(u));
@@ -328,7 +329,8 @@ public:
             return {m, m * (Real(2) * cosine) - w};
         }
         // Where the facet that a ray meets reflects it, and its F.
-        Vec3<Real> next_facet(const Ray& ray, RandomStream<Real>& stream, Color& F) const
+        REGAIN_HOST_DEVICE Vec3<Real> next_facet(const Ray& ray, RandomStream<Real>& stream,
+                                                 Color& F) const
         {
             constexpr bool three = Distribution::random_numbers > 2;
             const Real x = stream.next(), y = stream.next();
@@ -339,13 +341,14 @@ public:
         }
 
         // What leaves at the first facet.
-        Color single(const Vec3<Real>& wi) const
+        REGAIN_HOST_DEVICE Color single(const Vec3<Real>& wi) const
         {
             const detail::FacetReflection<Real> facet(_closure._distribution, _wo, wi);
             return _closure._fresnel.at(facet.cosine) * first_density(facet, wi);
         }
         // Of what is headed along wi the share out / (out + stay) leaves.
-        Real first_density(const detail::FacetReflection<Real>& facet, const Vec3<Real>& wi) const
+        REGAIN_HOST_DEVICE Real first_density(const detail::FacetReflection<Real>& facet,
+                                              const Vec3<Real>& wi) const
         {
             const Real out = _visible.projected_area() * wi.z,
                        stay = _closure._distribution.projected_area(-wi) * _wo.z;
@@ -354,8 +357,8 @@ public:
 
         // An estimate of what leaves at later facets, by a walk from wo or, where `place` is beyond
         // its share, from wi.
-        Color later(const Vec3<Real>& wi, const Real& place, const Vec3<Real>& u,
-                    RandomStream<Real>& stream) const
+        REGAIN_HOST_DEVICE Color later(const Vec3<Real>& wi, const Real& place, const Vec3<Real>& u,
+                                       RandomStream<Real>& stream) const
         {
             constexpr bool three = Distribution::random_numbers > 2;
             const Distribution& distribution = _closure._distribution;
@@ -433,18 +436,18 @@ public:
             return sum * detail::select(forward, Real(1), wi.z / _wo.z);
         }
 
-        static Real clamped(const Real& cosine)
+        REGAIN_HOST_DEVICE static Real clamped(const Real& cosine)
         {
             return detail::min(detail::max(cosine, Real(0)), Real(1));
         }
-        static WalkPath<Real> finished(WalkPath<Real> p, const Vec3<Real>& d)
+        REGAIN_HOST_DEVICE static WalkPath<Real> finished(WalkPath<Real> p, const Vec3<Real>& d)
         {
             p.wi = detail::normalised(d);  // what the bounces have rounded off
             return p;
         }
 
         // Near the density of sample, per steradian; wi.z > 0.
-        Real density(const Vec3<Real>& wi) const
+        REGAIN_HOST_DEVICE Real density(const Vec3<Real>& wi) const
         {
             const Distribution& distribution = _closure._distribution;
             const Real once =
@@ -465,10 +468,10 @@ public:
         Real _rest;
     };
 
-    Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
+    REGAIN_HOST_DEVICE Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
 
 private:
-    bool isotropic() const
+    REGAIN_HOST_DEVICE bool isotropic() const
     {
         return detail::all<Real>(_distribution.alpha_x() == _distribution.alpha_y());
     }

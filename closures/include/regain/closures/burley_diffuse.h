@@ -32,23 +32,23 @@ public:
     static constexpr int random_numbers = 2;
     static constexpr bool is_diffuse = true;
 
-    BurleyDiffuseModel(const Color& color, Real roughness)
+    REGAIN_HOST_DEVICE BurleyDiffuseModel(const Color& color, Real roughness)
         : _color(per_channel(color, [](Real v) { return saturate(v); })), _r(saturate(roughness))
     {}
 
-    const Color& color() const { return _color; }
-    Real roughness() const { return _r; }
+    REGAIN_HOST_DEVICE const Color& color() const { return _color; }
+    REGAIN_HOST_DEVICE Real roughness() const { return _r; }
 
-    void describe(Traits& t) const { t.reciprocal = true; }
+    REGAIN_HOST_DEVICE void describe(Traits& t) const { t.reciprocal = true; }
 
     class View
     {
     public:
-        View(const BurleyDiffuseModel& model, const Vec3<Real>& wo)
+        REGAIN_HOST_DEVICE View(const BurleyDiffuseModel& model, const Vec3<Real>& wo)
             : _wo(wo), _color(model._color), _r(model._r), _S(grazing(wo.z))
         {}
 
-        ReflectionTerms<Real> terms(const Vec3<Real>& wi) const
+        REGAIN_HOST_DEVICE ReflectionTerms<Real> terms(const Vec3<Real>& wi) const
         {
             const Real k = _r * (Real(1) + dot(_wo, wi)) - Real(0.5f);
             const Real cosine = wi.z * constant<Real>(inverse_pi);
@@ -56,12 +56,15 @@ public:
             return {_color * (shape * cosine), cosine};
         }
 
-        Vec3<Real> draw(const Vec3<Real>& u) const { return cosine_direction(u.x, u.y); }
+        REGAIN_HOST_DEVICE Vec3<Real> draw(const Vec3<Real>& u) const
+        {
+            return cosine_direction(u.x, u.y);
+        }
 
         // With a = r - 1/2 + r mu_o mu and b = r sin_o sin, k = a + b cos(phi), so over azimuth
         // the mean of (1 + k S_o)(1 + k S) is 1 + a (S_o + S) + (a^2 + b^2 / 2) S_o S. What is left
         // are the moments 2 int mu^(1 + n) S^m dmu.
-        Color albedo() const
+        REGAIN_HOST_DEVICE Color albedo() const
         {
             const Real mu = min(_wo.z, Real(1)), sine2 = (Real(1) - mu) * (Real(1) + mu);
             const Real p = _r - Real(0.5f), q = _r * mu, h = Real(0.5f) * _r * _r * sine2;
@@ -73,7 +76,7 @@ public:
         }
 
     private:
-        static Real grazing(const Real& mu)
+        REGAIN_HOST_DEVICE static Real grazing(const Real& mu)
         {
             const Real c = max(Real(1) - mu, Real(0)), c2 = c * c;
             return c2 * c2 * c;
@@ -96,13 +99,13 @@ class BurleyDiffuse : public SmoothReflection<detail::BurleyDiffuseModel<Real>>
 {
 public:
     /// color in [0, 1] per channel, roughness in [0, 1]; clamped, NaN becomes 0.
-    explicit BurleyDiffuse(const Color3<Real>& color, Real roughness = Real(0))
+    REGAIN_HOST_DEVICE explicit BurleyDiffuse(const Color3<Real>& color, Real roughness = Real(0))
         : SmoothReflection<detail::BurleyDiffuseModel<Real>>(
               detail::BurleyDiffuseModel<Real>(color, roughness))
     {}
 
-    const Color3<Real>& color() const { return this->model().color(); }
-    Real roughness() const { return this->model().roughness(); }
+    REGAIN_HOST_DEVICE const Color3<Real>& color() const { return this->model().color(); }
+    REGAIN_HOST_DEVICE Real roughness() const { return this->model().roughness(); }
 };
 
 REGAIN_NAMESPACE_END

@@ -85,8 +85,8 @@ struct TakesNumbersInEval<Prepared, Real,
 /// f(wo, wi) |cos theta_i| of any prepared closure; u in [0, 1)^3 is read where eval is an
 /// estimate.
 template <class Prepared, class Real>
-Color3<Real> evaluate(const Prepared& prepared, const Vec3<Real>& wi,
-                      [[maybe_unused]] const Vec3<Real>& u)
+REGAIN_HOST_DEVICE Color3<Real> evaluate(const Prepared& prepared, const Vec3<Real>& wi,
+                                         [[maybe_unused]] const Vec3<Real>& u)
 {
     if constexpr (detail::TakesNumbersInEval<Prepared, Real>::value)
         return prepared.eval(wi, u);
@@ -110,7 +110,7 @@ struct ExpectsAlbedo<Prepared,
 /// About what albedo() is, by which lobes are picked: a prepared closure whose albedo takes long
 /// has a guess of its own, expected_albedo().
 template <class Prepared>
-auto expected_albedo(const Prepared& prepared)
+REGAIN_HOST_DEVICE auto expected_albedo(const Prepared& prepared)
 {
     if constexpr (detail::ExpectsAlbedo<Prepared>::value)
         return prepared.expected_albedo();
@@ -122,7 +122,7 @@ namespace detail {
 
 /// Two random numbers as three, for a closure that reads no more.
 template <class Closure, class Real>
-Vec3<Real> two_numbers(const Vec2<Real>& u)
+REGAIN_HOST_DEVICE Vec3<Real> two_numbers(const Vec2<Real>& u)
 {
     static_assert(Closure::random_numbers <= 2, "this closure reads three random numbers");
     return {u.x, u.y, Real(0)};
@@ -135,25 +135,35 @@ template <class Closure, class Real>
 class Shorthands
 {
 public:
-    auto eval(const Vec3<Real>& wo, const Vec3<Real>& wi) const { return prepared(wo).eval(wi); }
+    REGAIN_HOST_DEVICE auto eval(const Vec3<Real>& wo, const Vec3<Real>& wi) const
+    {
+        return prepared(wo).eval(wi);
+    }
     /// Of a closure whose eval is an estimate.
-    auto eval(const Vec3<Real>& wo, const Vec3<Real>& wi, const Vec3<Real>& u) const
+    REGAIN_HOST_DEVICE auto eval(const Vec3<Real>& wo, const Vec3<Real>& wi,
+                                 const Vec3<Real>& u) const
     {
         return prepared(wo).eval(wi, u);
     }
-    Sample<Real> sample(const Vec3<Real>& wo, const Vec3<Real>& u) const
+    REGAIN_HOST_DEVICE Sample<Real> sample(const Vec3<Real>& wo, const Vec3<Real>& u) const
     {
         return prepared(wo).sample(u);
     }
-    Sample<Real> sample(const Vec3<Real>& wo, const Vec2<Real>& u) const
+    REGAIN_HOST_DEVICE Sample<Real> sample(const Vec3<Real>& wo, const Vec2<Real>& u) const
     {
         return prepared(wo).sample(detail::two_numbers<Closure>(u));
     }
-    Real pdf(const Vec3<Real>& wo, const Vec3<Real>& wi) const { return prepared(wo).pdf(wi); }
-    Albedo<Real> albedo(const Vec3<Real>& wo) const { return prepared(wo).albedo(); }
+    REGAIN_HOST_DEVICE Real pdf(const Vec3<Real>& wo, const Vec3<Real>& wi) const
+    {
+        return prepared(wo).pdf(wi);
+    }
+    REGAIN_HOST_DEVICE Albedo<Real> albedo(const Vec3<Real>& wo) const
+    {
+        return prepared(wo).albedo();
+    }
 
 private:
-    auto prepared(const Vec3<Real>& wo) const
+    REGAIN_HOST_DEVICE auto prepared(const Vec3<Real>& wo) const
     {
         return static_cast<const Closure&>(*this).prepare(wo);
     }
@@ -164,7 +174,7 @@ namespace detail {
 /// Of an n x n grid of random numbers the one in column i, row j. Where a third number is read, any
 /// sequence that fills the unit interval evenly.
 template <class Real>
-Vec3<Real> grid_numbers(int i, int j, int n)
+REGAIN_HOST_DEVICE Vec3<Real> grid_numbers(int i, int j, int n)
 {
     const double third = (i * n + j + 0.5) * 0.61803398874989484820;
     return {constant<Real>((i + 0.5) / n), constant<Real>((j + 0.5) / n),
@@ -179,7 +189,7 @@ constexpr int grid_rows = Distribution::random_numbers > 2 ? 64 : 32;
 /// random numbers. With the rows of its distribution right within 2e-3, of GTR 1e-2, of STD 1.5e-2;
 /// and a thousand times slower than a look-up.
 template <class Real, class Prepared>
-Albedo<Real> mean_weight(const Prepared& prepared, int n = 32)
+REGAIN_HOST_DEVICE Albedo<Real> mean_weight(const Prepared& prepared, int n = 32)
 {
     const Color3<Real> none(Real(0));
     const Real share = constant<Real>(1.0 / (n * n));

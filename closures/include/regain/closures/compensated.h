@@ -22,12 +22,12 @@ public:
     static constexpr bool depends_on_wi = detail::GainDependsOnWi<Gain>::value;
     static constexpr int random_numbers = Lobe::random_numbers;
 
-    Compensated(const Lobe& lobe, const Gain& gain) : _lobe(lobe), _gain(gain) {}
+    REGAIN_HOST_DEVICE Compensated(const Lobe& lobe, const Gain& gain) : _lobe(lobe), _gain(gain) {}
 
-    const Lobe& lobe() const { return _lobe; }
-    const Gain& gain() const { return _gain; }
+    REGAIN_HOST_DEVICE const Lobe& lobe() const { return _lobe; }
+    REGAIN_HOST_DEVICE const Gain& gain() const { return _gain; }
 
-    Traits traits() const
+    REGAIN_HOST_DEVICE Traits traits() const
     {
         Traits t = _lobe.traits();
         t.reciprocal = t.reciprocal && detail::GainIsReciprocal<Gain>::value;
@@ -38,16 +38,16 @@ public:
     class Prepared
     {
     public:
-        Prepared(const Compensated& closure, const Vec3<Real>& wo)
+        REGAIN_HOST_DEVICE Prepared(const Compensated& closure, const Vec3<Real>& wo)
             : _lobe(closure._lobe.prepare(wo)), _gain(closure._gain, _lobe.wo())
         {
             _lobe.scale_by(closure._gain.at(_lobe.wo()));
         }
 
-        decltype(auto) wo() const { return _lobe.wo(); }
-        void scale_by(const Color& weight) { _lobe.scale_by(weight); }
+        REGAIN_HOST_DEVICE decltype(auto) wo() const { return _lobe.wo(); }
+        REGAIN_HOST_DEVICE void scale_by(const Color& weight) { _lobe.scale_by(weight); }
 
-        Color eval(const Vec3<Real>& wi) const
+        REGAIN_HOST_DEVICE Color eval(const Vec3<Real>& wi) const
         {
             if constexpr (depends_on_wi)
             {
@@ -58,20 +58,20 @@ public:
                 return _lobe.eval(wi);
         }
 
-        Sample<Real> sample(const Vec2<Real>& u) const
+        REGAIN_HOST_DEVICE Sample<Real> sample(const Vec2<Real>& u) const
         {
             return sample(detail::two_numbers<Compensated>(u));
         }
-        Sample<Real> sample(const Vec3<Real>& u) const
+        REGAIN_HOST_DEVICE Sample<Real> sample(const Vec3<Real>& u) const
         {
             Sample<Real> s = _lobe.sample(u);
             if constexpr (depends_on_wi) s.weight *= _gain.pair(s.wi);
             return s;
         }
 
-        Real pdf(const Vec3<Real>& wi) const { return _lobe.pdf(wi); }
+        REGAIN_HOST_DEVICE Real pdf(const Vec3<Real>& wi) const { return _lobe.pdf(wi); }
 
-        Albedo<Real> albedo() const
+        REGAIN_HOST_DEVICE Albedo<Real> albedo() const
         {
             if constexpr (!depends_on_wi)
                 return _lobe.albedo();
@@ -80,12 +80,15 @@ public:
         }
 
         /// Without the gain of the pair.
-        Albedo<Real> expected_albedo() const { return regain::expected_albedo(_lobe); }
+        REGAIN_HOST_DEVICE Albedo<Real> expected_albedo() const
+        {
+            return regain::expected_albedo(_lobe);
+        }
 
     private:
         // The lobe's albedo times the mean gain over its samples, each by its weight: of what the
         // samples know of the lobe itself nothing is left in the ratio.
-        Albedo<Real> mean_gain() const
+        REGAIN_HOST_DEVICE Albedo<Real> mean_gain() const
         {
             const Color none(Real(0));
             Albedo<Real> with{none, none}, without{none, none};
@@ -104,7 +107,7 @@ public:
             return {bare.reflect * ratio(with.reflect, without.reflect),
                     bare.transmit * ratio(with.transmit, without.transmit)};
         }
-        static Color ratio(const Color& a, const Color& b)
+        REGAIN_HOST_DEVICE static Color ratio(const Color& a, const Color& b)
         {
             const Real tiny = detail::constant<Real>(1e-30);
             return {a.x / detail::max(b.x, tiny), a.y / detail::max(b.y, tiny),
@@ -115,10 +118,13 @@ public:
         std::conditional_t<depends_on_wi, detail::PairGain<Gain, Real>, detail::NoPairGain> _gain;
     };
 
-    Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
+    REGAIN_HOST_DEVICE Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
 
     // No gain enters a pdf, so none is looked up for it.
-    Real pdf(const Vec3<Real>& wo, const Vec3<Real>& wi) const { return _lobe.pdf(wo, wi); }
+    REGAIN_HOST_DEVICE Real pdf(const Vec3<Real>& wo, const Vec3<Real>& wi) const
+    {
+        return _lobe.pdf(wo, wi);
+    }
 
 private:
     Lobe _lobe;
@@ -128,7 +134,7 @@ private:
 /// The lobe compensated by a method of method_gain.h at strength s in [0, 1]. The tables serve its
 /// gain and, unless the lobe has its own, its albedo.
 template <class Lobe>
-Compensated<Lobe, MethodGain<typename Lobe::Real>> compensated(
+REGAIN_HOST_DEVICE Compensated<Lobe, MethodGain<typename Lobe::Real>> compensated(
     Lobe lobe, Method method, const MicrofacetTables& tables,
     typename Lobe::Real strength = typename Lobe::Real(1))
 {
@@ -138,7 +144,7 @@ Compensated<Lobe, MethodGain<typename Lobe::Real>> compensated(
 
 /// The lobe with a gain hook of the caller's.
 template <class Lobe, class Gain>
-Compensated<Lobe, Gain> compensated(const Lobe& lobe, const Gain& gain)
+REGAIN_HOST_DEVICE Compensated<Lobe, Gain> compensated(const Lobe& lobe, const Gain& gain)
 {
     return {lobe, gain};
 }
@@ -152,10 +158,11 @@ class ReversedGain
 public:
     static constexpr bool depends_on_wi = true;
 
-    explicit ReversedGain(const Gain& gain) : _gain(gain) {}
+    REGAIN_HOST_DEVICE explicit ReversedGain(const Gain& gain) : _gain(gain) {}
 
-    Color3<Real> at(const Vec3<Real>&) const { return Color3<Real>(Real(1)); }
-    Color3<Real> pair([[maybe_unused]] const Vec3<Real>& wo, const Vec3<Real>& wi) const
+    REGAIN_HOST_DEVICE Color3<Real> at(const Vec3<Real>&) const { return Color3<Real>(Real(1)); }
+    REGAIN_HOST_DEVICE Color3<Real> pair([[maybe_unused]] const Vec3<Real>& wo,
+                                         const Vec3<Real>& wi) const
     {
         if constexpr (detail::GainDependsOnWi<Gain>::value)
             return _gain.at(wi) * _gain.pair(wi, wo);
@@ -169,7 +176,7 @@ private:
 
 /// f*(wo, wi) = f(wi, wo) of a compensated reciprocal lobe, with directions and pdfs still its own.
 template <class Lobe, class Gain>
-Compensated<Lobe, ReversedGain<Gain, typename Lobe::Real>> reversed(
+REGAIN_HOST_DEVICE Compensated<Lobe, ReversedGain<Gain, typename Lobe::Real>> reversed(
     const Compensated<Lobe, Gain>& closure)
 {
     return {closure.lobe(), ReversedGain<Gain, typename Lobe::Real>(closure.gain())};

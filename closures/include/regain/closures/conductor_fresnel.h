@@ -31,43 +31,46 @@ public:
     using Color = Color3<Real>;
 
     /// n and k per channel, in [0, 1e4], clamped; NaN becomes n = 1 or k = 0.
-    ConductorFresnel(const Color& n, const Color& k)
+    REGAIN_HOST_DEVICE ConductorFresnel(const Color& n, const Color& k)
         : _n(detail::per_channel(n, [](Real v) { return detail::sanitised(v, 0, 1e4, 1); })),
           _k(detail::per_channel(k, [](Real v) { return detail::sanitised(v, 0, 1e4, 0); }))
     {}
 
-    Color at(Real mu) const
+    REGAIN_HOST_DEVICE Color at(Real mu) const
     {
         return {channel(_n.x, _k.x, mu), channel(_n.y, _k.y, mu), channel(_n.z, _k.z, mu)};
     }
 
-    Color normal_incidence() const { return at(Real(1)); }
+    REGAIN_HOST_DEVICE Color normal_incidence() const { return at(Real(1)); }
 
     /// F at the cosine of the falloff.
-    Color mean(const FresnelMoments<Real>& moments) const { return at(moments.cosine()); }
+    REGAIN_HOST_DEVICE Color mean(const FresnelMoments<Real>& moments) const
+    {
+        return at(moments.cosine());
+    }
 
     /// By five nodes: see docs/fresnel-averages.md.
-    Color average() const { return gauss_jacobi_average<5>(*this); }
+    REGAIN_HOST_DEVICE Color average() const { return gauss_jacobi_average<5>(*this); }
 
     /// F_ss to 1e-8, at 64 evaluations.
-    Color exact_average() const
+    REGAIN_HOST_DEVICE Color exact_average() const
     {
         return {exact_channel(_n.x, _k.x), exact_channel(_n.y, _k.y), exact_channel(_n.z, _k.z)};
     }
 
-    const Color& n() const { return _n; }
-    const Color& k() const { return _k; }
+    REGAIN_HOST_DEVICE const Color& n() const { return _n; }
+    REGAIN_HOST_DEVICE const Color& k() const { return _k; }
 
 private:
     // Below n = 1 a metal that hardly absorbs has a critical angle.
-    static Real exact_channel(Real n, Real k)
+    REGAIN_HOST_DEVICE static Real exact_channel(Real n, Real k)
     {
         const Real critical = detail::sqrt(detail::max((Real(1) - n) * (Real(1) + n), Real(0)));
         return regain::exact_average([&](Real mu) { return channel(n, k, mu); },
                                      detail::min(critical, detail::constant<Real>(0.9999)));
     }
 
-    static Real channel(Real n, Real k, Real mu)
+    REGAIN_HOST_DEVICE static Real channel(Real n, Real k, Real mu)
     {
         // Keeps 0 / 0 out where n = 0, and where n = 1, k = 0 meets grazing incidence.
         const Real tiny = detail::constant<Real>(1e-30);

@@ -25,14 +25,14 @@ public:
     using Real = RealType;
 
     /// Reflectance in [0, 1] per channel; outside it is clamped, NaN becomes 0.
-    explicit ConstantFresnel(const Color3<Real>& value = Color3<Real>(Real(1)))
+    REGAIN_HOST_DEVICE explicit ConstantFresnel(const Color3<Real>& value = Color3<Real>(Real(1)))
         : _value(detail::per_channel(value, [](Real v) { return detail::saturate(v); }))
     {}
 
-    Color3<Real> at(Real) const { return _value; }
-    Color3<Real> normal_incidence() const { return _value; }
-    Color3<Real> mean(const FresnelMoments<Real>&) const { return _value; }
-    Color3<Real> average() const { return _value; }
+    REGAIN_HOST_DEVICE Color3<Real> at(Real) const { return _value; }
+    REGAIN_HOST_DEVICE Color3<Real> normal_incidence() const { return _value; }
+    REGAIN_HOST_DEVICE Color3<Real> mean(const FresnelMoments<Real>&) const { return _value; }
+    REGAIN_HOST_DEVICE Color3<Real> average() const { return _value; }
 
 private:
     Color3<Real> _value;

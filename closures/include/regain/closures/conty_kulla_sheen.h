@@ -35,19 +35,22 @@ public:
     static constexpr int random_numbers = 2;
     static constexpr bool is_diffuse = false;
 
-    ContyKullaModel(const Color& color, Real roughness)
+    REGAIN_HOST_DEVICE ContyKullaModel(const Color& color, Real roughness)
         : _color(per_channel(color, [](Real v) { return saturate(v); })),
           _r(sanitised(roughness, least_roughness, 1, 0.3)),
           _exponent(Real(1) / _r)
     {}
 
-    const Color& color() const { return _color; }
-    Real roughness() const { return _r; }
+    REGAIN_HOST_DEVICE const Color& color() const { return _color; }
+    REGAIN_HOST_DEVICE Real roughness() const { return _r; }
 
-    void describe(Traits& t) const { t.reciprocal = all<Real>(_r > constant<Real>(0.21)); }
+    REGAIN_HOST_DEVICE void describe(Traits& t) const
+    {
+        t.reciprocal = all<Real>(_r > constant<Real>(0.21));
+    }
 
     /// E of the cosine mu in [0, 1].
-    Real albedo(const Real& mu) const
+    REGAIN_HOST_DEVICE Real albedo(const Real& mu) const
     {
         constexpr double c[7][4] = {{-0.449416, -0.180663, 0.0790144, 0.00686113},
                                     {-0.184009, -0.0521805, 0.0665093, 0.0317214},
@@ -69,7 +72,7 @@ public:
     class View
     {
     public:
-        View(const ContyKullaModel& model, const Vec3<Real>& wo)
+        REGAIN_HOST_DEVICE View(const ContyKullaModel& model, const Vec3<Real>& wo)
             : _wo(wo), _color(model._color), _exponent(model._exponent)
         {
             const Real E = model.albedo(wo.z);
@@ -77,7 +80,7 @@ public:
             _scale = (Real(2) + _exponent) * constant<Real>(inverse_pi / 8) / max(E, Real(1));
         }
 
-        ReflectionTerms<Real> terms(const Vec3<Real>& wi) const
+        REGAIN_HOST_DEVICE ReflectionTerms<Real> terms(const Vec3<Real>& wi) const
         {
             const Vec3<Real> sum = _wo + wi;
             const Real across = sum.x * sum.x + sum.y * sum.y;
@@ -88,9 +91,12 @@ public:
             return {_color * value, constant<Real>(inverse_pi / 2)};
         }
 
-        Vec3<Real> draw(const Vec3<Real>& u) const { return even_direction(u.x, u.y); }
+        REGAIN_HOST_DEVICE Vec3<Real> draw(const Vec3<Real>& u) const
+        {
+            return even_direction(u.x, u.y);
+        }
 
-        Color albedo() const { return _color * _E; }
+        REGAIN_HOST_DEVICE Color albedo() const { return _color * _E; }
 
     private:
         Vec3<Real> _wo;
@@ -113,14 +119,14 @@ class ContyKullaSheen : public SmoothReflection<detail::ContyKullaModel<Real>>
 public:
     /// color in [0, 1] per channel, clamped, NaN becomes 0. roughness in [0.07, 1], clamped, NaN
     /// becomes 0.3.
-    explicit ContyKullaSheen(const Color3<Real>& color,
-                             Real roughness = detail::constant<Real>(0.3))
+    REGAIN_HOST_DEVICE explicit ContyKullaSheen(const Color3<Real>& color,
+                                                Real roughness = detail::constant<Real>(0.3))
         : SmoothReflection<detail::ContyKullaModel<Real>>(
               detail::ContyKullaModel<Real>(color, roughness))
     {}
 
-    const Color3<Real>& color() const { return this->model().color(); }
-    Real roughness() const { return this->model().roughness(); }
+    REGAIN_HOST_DEVICE const Color3<Real>& color() const { return this->model().color(); }
+    REGAIN_HOST_DEVICE Real roughness() const { return this->model().roughness(); }
 };
 
 REGAIN_NAMESPACE_END

@@ -65,11 +65,12 @@ public:
     /// 1.5. Tints in [0, 1] per channel, clamped, NaN becomes 0. The tables, of this distribution
     /// and this form of shadowing, make albedo() a look-up; without them it integrates, which is
     /// slower.
-    Dielectric(const Distribution& distribution, Real eta, ScatterMode mode = ScatterMode::RT,
-               const Color& reflection_tint = Color(Real(1)),
-               const Color& transmission_tint = Color(Real(1)),
-               TransmissionShadowing shadowing = TransmissionShadowing::correlated,
-               const DielectricTables& tables = {})
+    REGAIN_HOST_DEVICE Dielectric(
+        const Distribution& distribution, Real eta, ScatterMode mode = ScatterMode::RT,
+        const Color& reflection_tint = Color(Real(1)),
+        const Color& transmission_tint = Color(Real(1)),
+        TransmissionShadowing shadowing = TransmissionShadowing::correlated,
+        const DielectricTables& tables = {})
         : _distribution(distribution),
           _eta(RelativeIndex<Real>::of(eta)),
           _reflection_tint(
@@ -81,24 +82,24 @@ public:
           _tables(tables)
     {}
 
-    const Distribution& distribution() const { return _distribution; }
-    Real eta() const { return _eta.eta; }
-    ScatterMode scatter_mode() const { return _mode; }
-    const Color& reflection_tint() const { return _reflection_tint; }
-    const Color& transmission_tint() const { return _transmission_tint; }
-    TransmissionShadowing transmission_shadowing() const { return _shadowing; }
+    REGAIN_HOST_DEVICE const Distribution& distribution() const { return _distribution; }
+    REGAIN_HOST_DEVICE Real eta() const { return _eta.eta; }
+    REGAIN_HOST_DEVICE ScatterMode scatter_mode() const { return _mode; }
+    REGAIN_HOST_DEVICE const Color& reflection_tint() const { return _reflection_tint; }
+    REGAIN_HOST_DEVICE const Color& transmission_tint() const { return _transmission_tint; }
+    REGAIN_HOST_DEVICE TransmissionShadowing transmission_shadowing() const { return _shadowing; }
 
-    const DielectricTables& tables() const { return _tables; }
-    void set_tables(const DielectricTables& tables) { _tables = tables; }
+    REGAIN_HOST_DEVICE const DielectricTables& tables() const { return _tables; }
+    REGAIN_HOST_DEVICE void set_tables(const DielectricTables& tables) { _tables = tables; }
 
     /// Index ahead of a direction over index behind it.
-    RelativeIndex<Real> relative_index(const Vec3<Real>& w) const
+    REGAIN_HOST_DEVICE RelativeIndex<Real> relative_index(const Vec3<Real>& w) const
     {
         return detail::select(w.z < Real(0), _eta.inverse(), _eta);
     }
 
     /// Light passes in one direction.
-    Mask transmits_delta() const
+    REGAIN_HOST_DEVICE Mask transmits_delta() const
     {
         const Real alpha = detail::max(_distribution.alpha_x(), _distribution.alpha_y());
         const Real width = detail::abs(_eta.minus_one) / detail::max(_eta.eta, Real(1)) * alpha;
@@ -107,7 +108,7 @@ public:
         return flat | narrow;
     }
 
-    Traits traits() const
+    REGAIN_HOST_DEVICE Traits traits() const
     {
         Traits t;
         t.reciprocal = true;
@@ -123,21 +124,21 @@ public:
     class Prepared
     {
     public:
-        Prepared(const Dielectric& lobe, const Vec3<Real>& wo)
+        REGAIN_HOST_DEVICE Prepared(const Dielectric& lobe, const Vec3<Real>& wo)
             : Prepared(lobe, detail::is_off_horizon(wo), wo)
         {}
 
-        Vec3<Real> wo() const { return turned(_wo); }
+        REGAIN_HOST_DEVICE Vec3<Real> wo() const { return turned(_wo); }
 
         /// Multiplies the closure weight: all that eval, sample and albedo return, and no direction
         /// or pdf.
-        void scale_by(const Color& weight)
+        REGAIN_HOST_DEVICE void scale_by(const Color& weight)
         {
             _reflection *= weight;
             _transmission *= weight;
         }
 
-        Color eval(const Vec3<Real>& wi) const
+        REGAIN_HOST_DEVICE Color eval(const Vec3<Real>& wi) const
         {
             const Terms t = terms(wi);
             return detail::select(t.valid, tint(t.reflected) * (t.weight * t.density),
@@ -145,7 +146,7 @@ public:
         }
 
         /// u.x, u.y: the normal; u.z: reflection where it is below the facet's F.
-        Sample<Real> sample(const Vec3<Real>& u) const
+        REGAIN_HOST_DEVICE Sample<Real> sample(const Vec3<Real>& u) const
         {
             const Vec3<Real> up(Real(0), Real(0), Real(1));
             const Vec3<Real> m = detail::select(_flat, up, _visible.sample(normal_numbers(u)));
@@ -182,13 +183,13 @@ public:
             return s;
         }
 
-        Real pdf(const Vec3<Real>& wi) const
+        REGAIN_HOST_DEVICE Real pdf(const Vec3<Real>& wi) const
         {
             const Terms t = terms(wi);
             return detail::select(t.valid, t.density, Real(0));
         }
 
-        Albedo<Real> albedo() const
+        REGAIN_HOST_DEVICE Albedo<Real> albedo() const
         {
             if (!_lobe._tables)
                 return {reflects() ? alone(ScatterMode::R).reflect : Color(Real(0)),
@@ -209,7 +210,7 @@ public:
     private:
         using Visible = decltype(std::declval<const Distribution&>().visible(Vec3<Real>()));
 
-        Prepared(const Dielectric& lobe, const Mask& valid, const Vec3<Real>& wo)
+        REGAIN_HOST_DEVICE Prepared(const Dielectric& lobe, const Mask& valid, const Vec3<Real>& wo)
             : _lobe(lobe),
               _valid(valid),
               _flat(lobe._distribution.is_delta()),
@@ -232,7 +233,7 @@ public:
         }
 
         // The albedo of one of the lobes, which takes no choice and so no third random number.
-        Albedo<Real> alone(ScatterMode mode) const
+        REGAIN_HOST_DEVICE Albedo<Real> alone(ScatterMode mode) const
         {
             Prepared lobe = *this;
             lobe._lobe._mode = mode;
@@ -243,7 +244,7 @@ public:
         static constexpr bool may_leave_out_normals =
             std::is_same_v<Visible,
                            decltype(std::declval<const Distribution&>().reflecting(Vec3<Real>()))>;
-        static Visible normals(const Dielectric& lobe, const Vec3<Real>& wo)
+        REGAIN_HOST_DEVICE static Visible normals(const Dielectric& lobe, const Vec3<Real>& wo)
         {
             if constexpr (may_leave_out_normals)
                 if (lobe._mode == ScatterMode::R) return lobe._distribution.reflecting(wo);
@@ -251,26 +252,29 @@ public:
         }
 
         // The third number of the normal has to be independent of the choice of the lobe.
-        Vec3<Real> normal_numbers(const Vec3<Real>& u) const
+        REGAIN_HOST_DEVICE Vec3<Real> normal_numbers(const Vec3<Real>& u) const
         {
             if constexpr (Distribution::random_numbers > 2)
                 if (both_lobes()) return {u.x, u.y, RandomStream<Real>(u).next()};
             return u;
         }
 
-        bool reflects() const { return _lobe._mode != ScatterMode::T; }
-        bool transmits() const { return _lobe._mode != ScatterMode::R; }
-        bool both_lobes() const { return _lobe._mode == ScatterMode::RT; }
+        REGAIN_HOST_DEVICE bool reflects() const { return _lobe._mode != ScatterMode::T; }
+        REGAIN_HOST_DEVICE bool transmits() const { return _lobe._mode != ScatterMode::R; }
+        REGAIN_HOST_DEVICE bool both_lobes() const { return _lobe._mode == ScatterMode::RT; }
 
-        Mask chooses_reflection(const Real& F, const Real& u) const
+        REGAIN_HOST_DEVICE Mask chooses_reflection(const Real& F, const Real& u) const
         {
             if (!both_lobes()) return Mask(reflects());
             return (u < F) | (F >= Real(1));
         }
 
-        Vec3<Real> turned(const Vec3<Real>& w) const { return {w.x, w.y, w.z * _side}; }
+        REGAIN_HOST_DEVICE Vec3<Real> turned(const Vec3<Real>& w) const
+        {
+            return {w.x, w.y, w.z * _side};
+        }
 
-        Color tint(const Mask& reflected) const
+        REGAIN_HOST_DEVICE Color tint(const Mask& reflected) const
         {
             return detail::select(reflected, _reflection, _transmission);
         }
@@ -286,7 +290,7 @@ public:
             Real masking;  // G2 / G1(wo)
         };
 
-        Terms terms(const Vec3<Real>& direction) const
+        REGAIN_HOST_DEVICE Terms terms(const Vec3<Real>& direction) const
         {
             const Distribution& distribution = _lobe._distribution;
             const Vec3<Real> up(Real(0), Real(0), Real(1));
@@ -345,7 +349,7 @@ public:
             return t;
         }
 
-        Vec3<Real> half_vector(const Vec3<Real>& wi, const Mask& reflected) const
+        REGAIN_HOST_DEVICE Vec3<Real> half_vector(const Vec3<Real>& wi, const Mask& reflected) const
         {
             if (detail::all<Real>(reflected)) return detail::half_vector(_wo, wi);
             const Vec3<Real> h = detail::refraction_half_vector(_wo, wi, _fresnel.relative_index());
@@ -353,7 +357,8 @@ public:
             return detail::select(reflected, detail::half_vector(_wo, wi), h);
         }
 
-        Real transmission_masking(const Vec3<Real>& wi_up, const Real& shadowing) const
+        REGAIN_HOST_DEVICE Real transmission_masking(const Vec3<Real>& wi_up,
+                                                     const Real& shadowing) const
         {
             if (_lobe._shadowing == TransmissionShadowing::correlated || !transmits())
                 return shadowing * _sigma_o;
@@ -363,7 +368,8 @@ public:
         // G2 / G1(wo) of the rough lobe in the limit that it is narrow. Facets that are tilted turn
         // wo less than the surface as a whole does: in the mean by mu / sigma_o of that, where
         // the turn is small.
-        Real delta_masking(const Vec3<Real>& refracted, const Real& masking) const
+        REGAIN_HOST_DEVICE Real delta_masking(const Vec3<Real>& refracted,
+                                              const Real& masking) const
         {
             const Mask rough = detail::both<Real>(_narrow, !_flat);
             if (!detail::any<Real>(rough)) return detail::select(_flat, Real(1), masking);
@@ -390,7 +396,7 @@ public:
         Color _reflection, _transmission;  // what multiplies the lobes
     };
 
-    Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
+    REGAIN_HOST_DEVICE Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
 
 private:
     Distribution _distribution;

@@ -65,7 +65,8 @@ struct AnisotropicGlassPlace
     Real x[5];   ///< coordinates of D
 
     /// Widths in (0, 1], w unit, of either side; eta > 0 the index ahead of w over the one behind.
-    AnisotropicGlassPlace(Real alpha_x, Real alpha_y, const Vec3<Real>& w, Real eta)
+    REGAIN_HOST_DEVICE AnisotropicGlassPlace(Real alpha_x, Real alpha_y, const Vec3<Real>& w,
+                                             Real eta)
     {
         const Real one(1), tiny = detail::constant<Real>(1e-30);
         const MaskOf<Real> x_wider = alpha_x >= alpha_y;
@@ -93,7 +94,8 @@ struct AnisotropicGlassPlace
     }
 
     /// a above.
-    static Real towards(const Real& alpha_x, const Real& alpha_y, const Vec3<Real>& w)
+    REGAIN_HOST_DEVICE static Real towards(const Real& alpha_x, const Real& alpha_y,
+                                           const Vec3<Real>& w)
     {
         const Real X = alpha_x * w.x, Y = alpha_y * w.y;
         const Real mean2 = Real(0.5f) * (alpha_x * alpha_x + alpha_y * alpha_y);
@@ -102,7 +104,8 @@ struct AnisotropicGlassPlace
     }
 
     /// s^2 above.
-    static Real critical_tangent2(const Real& mu, const Real& rho, const Real& eta)
+    REGAIN_HOST_DEVICE static Real critical_tangent2(const Real& mu, const Real& rho,
+                                                     const Real& eta)
     {
         const Real one(1), kappa2 = (one - eta) * (one + eta);
         const Real r2 =
@@ -117,7 +120,8 @@ struct AnisotropicGlassPlace
 
 private:
     // Needs x[4].
-    Real cosine(const Real& mu, const Real& eta, const MaskOf<Real>& inside) const
+    REGAIN_HOST_DEVICE Real cosine(const Real& mu, const Real& eta,
+                                   const MaskOf<Real>& inside) const
     {
         Real above = stretched_cosine(mu, alpha);
         if (!detail::any<Real>(inside)) return above;

@@ -21,7 +21,7 @@ constexpr float tail_least_width = 0.05f;
 
 /// z above, of eta > 0.
 template <class Real>
-Real index_coordinate(Real eta)
+REGAIN_HOST_DEVICE Real index_coordinate(Real eta)
 {
     return sqrt(sqrt(
         min(abs(eta - Real(1)) / (eta + Real(1)) * constant<Real>(5.0 / 3.0), constant<Real>(1))));
@@ -29,7 +29,7 @@ Real index_coordinate(Real eta)
 
 /// The same of E^S of side 1 in the beta form.
 template <class Real>
-Real near_index_coordinate(Real eta)
+REGAIN_HOST_DEVICE Real near_index_coordinate(Real eta)
 {
     const Real r =
         sqrt(min(abs(eta - Real(1)) / (eta + Real(1)) * constant<Real>(5.0 / 3.0), Real(1)));
@@ -38,7 +38,7 @@ Real near_index_coordinate(Real eta)
 
 /// w above.
 template <class Real>
-Real fresnel_weight(Real alpha, Real eta)
+REGAIN_HOST_DEVICE Real fresnel_weight(Real alpha, Real eta)
 {
     const Real k = abs((eta - Real(1)) * (eta + Real(1)));
     return k / (k + alpha * alpha);
@@ -46,7 +46,7 @@ Real fresnel_weight(Real alpha, Real eta)
 
 /// s above; mu in [0, 1], alpha in (0, 1].
 template <class Real>
-Real dielectric_cosine(Real mu, Real alpha, bool tail)
+REGAIN_HOST_DEVICE Real dielectric_cosine(Real mu, Real alpha, bool tail)
 {
     const Real s = stretched_cosine(mu, alpha);
     return tail ? Real(0.5f) * (s + Real(1) - sqrt(max(Real(1) - s, Real(0)))) : s;
@@ -54,8 +54,8 @@ Real dielectric_cosine(Real mu, Real alpha, bool tail)
 
 /// x of side 1 above: mu in [0, 1], alpha in (0, 1], eta in (0, 1).
 template <class Real>
-Real critical_cosine_coordinate(Real mu, Real alpha, Real eta, bool tail = false,
-                                bool near_index = false)
+REGAIN_HOST_DEVICE Real critical_cosine_coordinate(Real mu, Real alpha, Real eta, bool tail = false,
+                                                   bool near_index = false)
 {
     const Real one(1), tiny = constant<Real>(1e-6);
     const Real kappa = sqrt(max((one - eta) * (one + eta), constant<Real>(1e-12)));

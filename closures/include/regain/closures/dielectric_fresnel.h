@@ -39,18 +39,18 @@ public:
 
     /// eta: index ahead over index on the side of the direction, in [1e-2, 1e2]; outside it is
     /// clamped, NaN becomes 1.5.
-    explicit DielectricFresnel(Real eta) : _eta(RelativeIndex<Real>::of(eta)) {}
+    REGAIN_HOST_DEVICE explicit DielectricFresnel(Real eta) : _eta(RelativeIndex<Real>::of(eta)) {}
     /// The index as it is.
-    explicit DielectricFresnel(const RelativeIndex<Real>& eta) : _eta(eta) {}
+    REGAIN_HOST_DEVICE explicit DielectricFresnel(const RelativeIndex<Real>& eta) : _eta(eta) {}
 
-    const RelativeIndex<Real>& relative_index() const { return _eta; }
+    REGAIN_HOST_DEVICE const RelativeIndex<Real>& relative_index() const { return _eta; }
 
     /// F and 1 - F at the cosine mu in [0, 1], each to nearly full precision.
     struct Split
     {
         Real reflectance, transmittance;
     };
-    Split split(Real mu) const
+    REGAIN_HOST_DEVICE Split split(Real mu) const
     {
         // Keeps 0 / 0 out at grazing incidence on eta = 1.
         const Real tiny = detail::constant<Real>(1e-18);
@@ -70,13 +70,13 @@ public:
         return {detail::select(refracts, detail::min(F, Real(1)), Real(1)),
                 detail::select(refracts, detail::min(T, Real(1)), Real(0))};
     }
-    Real reflectance(Real mu) const { return split(mu).reflectance; }
-    Real transmittance(Real mu) const { return split(mu).transmittance; }
+    REGAIN_HOST_DEVICE Real reflectance(Real mu) const { return split(mu).reflectance; }
+    REGAIN_HOST_DEVICE Real transmittance(Real mu) const { return split(mu).transmittance; }
 
     /// 1 - F of a pair of directions that refract into each other: mu_o on the near side, mu_i on
     /// the far side. Where only one of the cosines is known, the other loses its digits near the
     /// critical angle.
-    Real transmittance(Real mu_o, Real mu_i) const
+    REGAIN_HOST_DEVICE Real transmittance(Real mu_o, Real mu_i) const
     {
         const Real tiny = detail::constant<Real>(1e-18);
         const Real c = detail::max(mu_o, tiny), t = detail::max(mu_i, tiny);
@@ -85,29 +85,32 @@ public:
         return detail::min(T, Real(1));
     }
 
-    Color at(Real mu) const { return Color(reflectance(mu)); }
-    Color normal_incidence() const { return at(Real(1)); }
+    REGAIN_HOST_DEVICE Color at(Real mu) const { return Color(reflectance(mu)); }
+    REGAIN_HOST_DEVICE Color normal_incidence() const { return at(Real(1)); }
     /// F at the cosine of the falloff.
-    Color mean(const FresnelMoments<Real>& moments) const { return at(moments.cosine()); }
+    REGAIN_HOST_DEVICE Color mean(const FresnelMoments<Real>& moments) const
+    {
+        return at(moments.cosine());
+    }
     /// F_ss.
-    Color average() const { return Color(Real(1) - average_transmittance()); }
+    REGAIN_HOST_DEVICE Color average() const { return Color(Real(1) - average_transmittance()); }
 
     /// 1 - F_ss.
-    Real average_transmittance() const
+    REGAIN_HOST_DEVICE Real average_transmittance() const
     {
         const MaskOf<Real> inside = _eta.minus_one < Real(0);
         const RelativeIndex<Real> larger = detail::select(inside, _eta.inverse(), _eta);
         const Real T = Real(1) - average_entering(larger);
         return detail::select(inside, _eta.eta * _eta.eta * T, T);
     }
-    Real average_reflectance() const
+    REGAIN_HOST_DEVICE Real average_reflectance() const
     {
         return detail::select(_eta.minus_one < Real(0), Real(1) - average_transmittance(),
                               average_entering(_eta));
     }
 
 private:
-    static Real average_entering(const RelativeIndex<Real>& index)
+    REGAIN_HOST_DEVICE static Real average_entering(const RelativeIndex<Real>& index)
     {
         const Real n = detail::max(index.eta, Real(1));
         const Real minus_one = detail::max(index.minus_one, Real(0));
@@ -116,7 +119,7 @@ private:
                               average_closed(detail::max(n, Real(2))));
     }
 
-    static Real average_near_one(Real n, Real minus_one)
+    REGAIN_HOST_DEVICE static Real average_near_one(Real n, Real minus_one)
     {
         constexpr double node[] = {0.0198550717512318842, 0.101666761293186630,
                                    0.237233795041835507,  0.408282678752175098,
@@ -147,7 +150,7 @@ private:
                minus_one * (n + one) * sum * detail::constant<Real>(1.0 / 8);
     }
 
-    static Real average_closed(Real n)
+    REGAIN_HOST_DEVICE static Real average_closed(Real n)
     {
         const Real one(1), two(2);
         const Real n2 = n * n, inv = one / n2, inv2 = inv * inv;  // powers of 1 / n do not overflow

@@ -29,7 +29,7 @@ public:
     using Color = Color3<Real>;
 
     /// Methods that mean something for a dielectric; with another the gain is 1.
-    static constexpr bool supports(Method method)
+    REGAIN_HOST_DEVICE static constexpr bool supports(Method method)
     {
         return method == Method::none || method == Method::normalise || method == Method::turquin;
     }
@@ -38,8 +38,9 @@ public:
     /// E_ss from `mirror`. Without the table that the mode needs the gain is 1. strength is clamped
     /// to [0, 1], NaN becomes 0.
     template <class Distribution>
-    DielectricGain(const Dielectric<Distribution>& lobe, Method method,
-                   const DielectricTables& tables, const MicrofacetTables& mirror, Real strength)
+    REGAIN_HOST_DEVICE DielectricGain(const Dielectric<Distribution>& lobe, Method method,
+                                      const DielectricTables& tables,
+                                      const MicrofacetTables& mirror, Real strength)
         : _tables(tables), _mirror(mirror), _axes(lobe.distribution())
     {
         const Vec3<Real> up(Real(0), Real(0), Real(1));
@@ -64,7 +65,7 @@ public:
                      detail::all<Real>(distribution.alpha_x() == distribution.alpha_y());
     }
 
-    Color at(const Vec3<Real>& wo) const
+    REGAIN_HOST_DEVICE Color at(const Vec3<Real>& wo) const
     {
         if (!_bound) return Color(Real(1));
         const MaskOf<Real> below = wo.z < Real(0);
@@ -79,7 +80,7 @@ public:
     }
 
     /// At full strength all light of an isotropic interface that is not tinted leaves it.
-    bool energy_preserving() const { return _bound && _preserves; }
+    REGAIN_HOST_DEVICE bool energy_preserving() const { return _bound && _preserves; }
 
 private:
     DielectricTables _tables;
@@ -93,10 +94,11 @@ private:
 /// The dielectric compensated at strength s in [0, 1]. `tables` serve its gain and, unless the lobe
 /// has its own, its albedo; mode R takes its gain from `mirror`.
 template <class Distribution>
-Compensated<Dielectric<Distribution>, DielectricGain<typename Distribution::Real>> compensated(
-    Dielectric<Distribution> lobe, Method method, const DielectricTables& tables,
-    const MicrofacetTables& mirror,
-    typename Distribution::Real strength = typename Distribution::Real(1))
+REGAIN_HOST_DEVICE
+    Compensated<Dielectric<Distribution>, DielectricGain<typename Distribution::Real>>
+    compensated(Dielectric<Distribution> lobe, Method method, const DielectricTables& tables,
+                const MicrofacetTables& mirror,
+                typename Distribution::Real strength = typename Distribution::Real(1))
 {
     if (!lobe.tables()) lobe.set_tables(tables);
     return {lobe,
@@ -104,9 +106,10 @@ Compensated<Dielectric<Distribution>, DielectricGain<typename Distribution::Real
 }
 /// The same for modes RT and T.
 template <class Distribution>
-Compensated<Dielectric<Distribution>, DielectricGain<typename Distribution::Real>> compensated(
-    const Dielectric<Distribution>& lobe, Method method, const DielectricTables& tables,
-    typename Distribution::Real strength = typename Distribution::Real(1))
+REGAIN_HOST_DEVICE
+    Compensated<Dielectric<Distribution>, DielectricGain<typename Distribution::Real>>
+    compensated(const Dielectric<Distribution>& lobe, Method method, const DielectricTables& tables,
+                typename Distribution::Real strength = typename Distribution::Real(1))
 {
     return compensated(lobe, method, tables, MicrofacetTables{}, strength);
 }

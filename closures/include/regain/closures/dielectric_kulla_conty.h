@@ -55,8 +55,9 @@ public:
 
     /// Of a dielectric with its tints and scatter mode. strength in [0, 1] scales the lobes;
     /// clamped, NaN becomes 0.
-    DielectricMissingEnergyLobe(const Dielectric& lobe, const DielectricTables& tables,
-                                Real strength, KullaContySplit split)
+    REGAIN_HOST_DEVICE DielectricMissingEnergyLobe(const Dielectric& lobe,
+                                                   const DielectricTables& tables, Real strength,
+                                                   KullaContySplit split)
         : _tables(tables),
           _axes(lobe.distribution()),
           _black(lobe.distribution().is_delta()),
@@ -99,14 +100,14 @@ public:
         _transmission = transmits ? lobe.transmission_tint() * s : Color(Real(0));
     }
 
-    bool bound() const { return _bound; }
+    REGAIN_HOST_DEVICE bool bound() const { return _bound; }
 
     /// Share b_o of what is missing that is transmitted, of a wo above (0) or below (1).
-    Real transmitted_share(int side) const { return _passed[side]; }
+    REGAIN_HOST_DEVICE Real transmitted_share(int side) const { return _passed[side]; }
     /// l_o = 1 - E_avg of that side.
-    Real average_loss(int side) const { return _missing[side].average(); }
+    REGAIN_HOST_DEVICE Real average_loss(int side) const { return _missing[side].average(); }
 
-    Traits traits() const
+    REGAIN_HOST_DEVICE Traits traits() const
     {
         Traits t;
         t.reciprocal = true;
@@ -120,7 +121,7 @@ public:
     class Prepared
     {
     public:
-        Prepared(const DielectricMissingEnergyLobe& lobe, const Vec3<Real>& wo)
+        REGAIN_HOST_DEVICE Prepared(const DielectricMissingEnergyLobe& lobe, const Vec3<Real>& wo)
             : _lobe(lobe),
               _valid(detail::is_off_horizon(wo)),
               _wo(detail::select(_valid, wo, Vec3<Real>(Real(0), Real(0), Real(1)))),
@@ -137,24 +138,24 @@ public:
             _valid = detail::both<Real>(_valid, R + T > Real(0));
         }
 
-        const Vec3<Real>& wo() const { return _wo; }
-        void scale_by(const Color& weight)
+        REGAIN_HOST_DEVICE const Vec3<Real>& wo() const { return _wo; }
+        REGAIN_HOST_DEVICE void scale_by(const Color& weight)
         {
             _reflection *= weight;
             _transmission *= weight;
         }
 
         /// 1 - E^S(wo).
-        Real loss() const { return _loss; }
+        REGAIN_HOST_DEVICE Real loss() const { return _loss; }
 
-        Color eval(const Vec3<Real>& wi) const
+        REGAIN_HOST_DEVICE Color eval(const Vec3<Real>& wi) const
         {
             const Terms t = terms(wi);
             return detail::select(t.valid, value(t), Color(Real(0)));
         }
 
         /// u.x, u.y: the direction; u.z: reflection or transmission.
-        Sample<Real> sample(const Vec3<Real>& u) const
+        REGAIN_HOST_DEVICE Sample<Real> sample(const Vec3<Real>& u) const
         {
             const Mask reflect = (detail::saturate(u.z) < _p) | (_p >= Real(1));
             // Above where reflection meets a wo above, or transmission one below.
@@ -182,13 +183,16 @@ public:
             return s;
         }
 
-        Real pdf(const Vec3<Real>& wi) const
+        REGAIN_HOST_DEVICE Real pdf(const Vec3<Real>& wi) const
         {
             const Terms t = terms(wi);
             return detail::select(t.valid, density(t), Real(0));
         }
 
-        Albedo<Real> albedo() const { return {_reflection * _loss, _transmission * _loss}; }
+        REGAIN_HOST_DEVICE Albedo<Real> albedo() const
+        {
+            return {_reflection * _loss, _transmission * _loss};
+        }
 
     private:
         struct Terms
@@ -199,7 +203,7 @@ public:
             Mask reflected;  // or else transmitted
             Real mu;         // |cos theta_i|
         };
-        Terms terms(const Vec3<Real>& direction) const
+        REGAIN_HOST_DEVICE Terms terms(const Vec3<Real>& direction) const
         {
             Terms t;
             const Mask possible = detail::both<Real>(_valid, detail::is_off_horizon(direction));
@@ -215,7 +219,7 @@ public:
             return t;
         }
         // f cos theta_i.
-        Color value(const Terms& t) const
+        REGAIN_HOST_DEVICE Color value(const Terms& t) const
         {
             const Real eta = detail::select(t.below, _lobe._eta[1], _lobe._eta[0]);
             const Real scale =
@@ -224,7 +228,7 @@ public:
                    (_loss * scale * _lobe.loss(eta, t.wi) * t.mu);
         }
         // Per steradian.
-        Real density(const Terms& t) const
+        REGAIN_HOST_DEVICE Real density(const Terms& t) const
         {
             Real d(0);
             if (!detail::all<Real>(t.below)) d = _lobe._missing[0].density(t.mu);
@@ -234,7 +238,7 @@ public:
                    detail::constant<Real>(0.159154943091895335769);
         }
 
-        static Mask differ(const Mask& a, const Mask& b)
+        REGAIN_HOST_DEVICE static Mask differ(const Mask& a, const Mask& b)
         {  // xsimd's != takes two true masks for two NaNs.
             const Mask not_a = !a, not_b = !b;
             return (a & not_b) | (not_a & b);
@@ -248,15 +252,15 @@ public:
         Color _reflection, _transmission;
     };
 
-    Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
+    REGAIN_HOST_DEVICE Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
 
 private:
     using Missing = MissingEnergy<Real, 3, 16>;
 
-    static Real total(const Color& c) { return c.x + c.y + c.z; }
+    REGAIN_HOST_DEVICE static Real total(const Color& c) { return c.x + c.y + c.z; }
 
     // 1 - E^S of w, seen from where eta is the index ahead over the one behind.
-    Real loss(Real eta, const Vec3<Real>& w) const
+    REGAIN_HOST_DEVICE Real loss(Real eta, const Vec3<Real>& w) const
     {
         if (!_bound) return Real(0);
         return detail::select(_black, Real(0), Real(1) - _tables.albedo(_axes, eta, w));
@@ -282,8 +286,9 @@ public:
 
     /// strength in [0, 1] scales the added lobes; clamped, NaN becomes 0. Without tables there are
     /// none.
-    DielectricKullaConty(const Lobe& lobe, const DielectricTables& tables, Real strength = Real(1),
-                         KullaContySplit split = KullaContySplit::kulla_conty)
+    REGAIN_HOST_DEVICE DielectricKullaConty(const Lobe& lobe, const DielectricTables& tables,
+                                            Real strength = Real(1),
+                                            KullaContySplit split = KullaContySplit::kulla_conty)
         : DielectricWithAddedLobes<Lobe, DielectricMissingEnergyLobe<Lobe>>(
               lobe, {lobe, tables, strength, split}, strength)
     {}
@@ -293,7 +298,7 @@ public:
 /// distribution and form of shadowing, serve the added lobes and, unless it has its own, its
 /// albedo.
 template <class Distribution>
-DielectricKullaConty<Dielectric<Distribution>> kulla_conty(
+REGAIN_HOST_DEVICE DielectricKullaConty<Dielectric<Distribution>> kulla_conty(
     Dielectric<Distribution> lobe, const DielectricTables& tables,
     typename Distribution::Real strength = typename Distribution::Real(1),
     KullaContySplit split = KullaContySplit::kulla_conty)

@@ -63,14 +63,14 @@ class GlassWidths
 public:
     using Real = RealType;
     template <class Distribution>
-    explicit GlassWidths(const Distribution& distribution)
+    REGAIN_HOST_DEVICE explicit GlassWidths(const Distribution& distribution)
         : _x(distribution.alpha_x()),
           _y(distribution.alpha_y()),
           _mean(distribution.effective_alpha())
     {}
-    Real alpha_x() const { return _x; }
-    Real alpha_y() const { return _y; }
-    Real effective_alpha() const { return _mean; }
+    REGAIN_HOST_DEVICE Real alpha_x() const { return _x; }
+    REGAIN_HOST_DEVICE Real alpha_y() const { return _y; }
+    REGAIN_HOST_DEVICE Real effective_alpha() const { return _mean; }
 
 private:
     Real _x, _y, _mean;
@@ -90,11 +90,11 @@ struct DielectricTables
     /// What anisotropic lobes take besides; nothing else reads it. It is kept by whoever made it.
     const DielectricAnisotropy* anisotropy = nullptr;
 
-    explicit operator bool() const { return E[0] && E[1] && R[0] && R[1]; }
+    REGAIN_HOST_DEVICE explicit operator bool() const { return E[0] && E[1] && R[0] && R[1]; }
 
     /// a above of a unit w and of `widths`, a distribution or its axes; eta_o > 0.
     template <class Widths, class Real>
-    Real width(const Widths& widths, Real eta_o, const Vec3<Real>& w) const
+    REGAIN_HOST_DEVICE Real width(const Widths& widths, Real eta_o, const Vec3<Real>& w) const
     {
         const Real x = widths.alpha_x(), y = widths.alpha_y(), mean = widths.effective_alpha();
         const MaskOf<Real> same = x == y;
@@ -112,7 +112,7 @@ struct DielectricTables
 
     /// E^S at the cosine mu = |wo.z| in [0, 1], at most 1. alpha in (0, 1], eta_o > 0.
     template <class Real>
-    Real albedo(Real alpha, Real eta_o, Real mu) const
+    REGAIN_HOST_DEVICE Real albedo(Real alpha, Real eta_o, Real mu) const
     {
         const Real found = look_up(E, near_index, alpha, eta_o, mu);
         return detail::min(logarithmic ? detail::exp(found) : found, Real(1));
@@ -121,7 +121,7 @@ struct DielectricTables
     /// E^S of a unit w of either side and of `widths`, a distribution or its axes; eta_o > 0 the
     /// index ahead of w over the one behind.
     template <class Widths, class Real>
-    Real albedo(const Widths& widths, Real eta_o, const Vec3<Real>& w) const
+    REGAIN_HOST_DEVICE Real albedo(const Widths& widths, Real eta_o, const Vec3<Real>& w) const
     {
         const Real x = widths.alpha_x(), y = widths.alpha_y();
         const Real mu = detail::saturate(detail::abs(w.z));
@@ -142,7 +142,7 @@ struct DielectricTables
 
     /// E^R / E^S, in [0, 1]; arguments as of the first.
     template <class Real>
-    Real reflected_share(Real alpha, Real eta_o, Real mu) const
+    REGAIN_HOST_DEVICE Real reflected_share(Real alpha, Real eta_o, Real mu) const
     {
         const Real F = DielectricFresnel<Real>(eta_o).reflectance(mu);
         const Real w = detail::fresnel_weight(alpha, eta_o);
@@ -151,7 +151,8 @@ struct DielectricTables
 
     /// The same of a unit w of either side and of `widths`.
     template <class Widths, class Real>
-    Real reflected_share(const Widths& widths, Real eta_o, const Vec3<Real>& w) const
+    REGAIN_HOST_DEVICE Real reflected_share(const Widths& widths, Real eta_o,
+                                            const Vec3<Real>& w) const
     {
         const Real x = widths.alpha_x(), y = widths.alpha_y();
         const Real mu = detail::min(detail::abs(w.z), Real(1));
@@ -164,14 +165,15 @@ struct DielectricTables
     /// The reflected share of all that leaves after two facets or more, in [0, 1]; arguments as
     /// above. Needs `later`.
     template <class Real>
-    Real later_reflected_share(Real alpha, Real eta_o, Real mu) const
+    REGAIN_HOST_DEVICE Real later_reflected_share(Real alpha, Real eta_o, Real mu) const
     {
         return detail::saturate(look_up(later, false, alpha, eta_o, mu));
     }
 
 private:
     template <class Real>
-    Real look_up(const TableView (&table)[2], bool near, Real alpha, Real eta, Real mu) const
+    REGAIN_HOST_DEVICE Real look_up(const TableView (&table)[2], bool near, Real alpha, Real eta,
+                                    Real mu) const
     {
         const Real width = tail ? detail::max(alpha, Real(detail::tail_least_width)) : alpha;
         const Real y = detail::sqrt(alpha);

@@ -54,7 +54,8 @@ public:
 
     /// Of a dielectric with its tints and scatter mode. strength in [0, 1] scales the lobes;
     /// clamped, NaN becomes 0.
-    DielectricTailLobe(const Dielectric& lobe, const DielectricTables& tables, Real strength)
+    REGAIN_HOST_DEVICE DielectricTailLobe(const Dielectric& lobe, const DielectricTables& tables,
+                                          Real strength)
         : _tables(tables), _widths(lobe.distribution()), _black(lobe.distribution().is_delta())
     {
         const bool reflects = lobe.scatter_mode() != ScatterMode::T,
@@ -76,7 +77,7 @@ public:
         _transmission = transmits ? lobe.transmission_tint() * s : Color(Real(0));
     }
 
-    bool bound() const { return _bound; }
+    REGAIN_HOST_DEVICE bool bound() const { return _bound; }
 
     /// What the added lobes reflect and transmit of a unit of light.
     struct Split
@@ -85,7 +86,7 @@ public:
     };
 
     /// R_o and T_o of a unit wo above or below.
-    Split split(const Vec3<Real>& wo) const
+    REGAIN_HOST_DEVICE Split split(const Vec3<Real>& wo) const
     {
         const Mask below = wo.z < Real(0);
         const Split s = looked_up(detail::select(below, _eta[1], _eta[0]), wo);
@@ -95,9 +96,9 @@ public:
         return {lost - T, T};
     }
     /// s_o of that side.
-    Real scale(int side) const { return _scale[side]; }
+    REGAIN_HOST_DEVICE Real scale(int side) const { return _scale[side]; }
 
-    Traits traits() const
+    REGAIN_HOST_DEVICE Traits traits() const
     {
         Traits t;
         t.reciprocal = true;
@@ -111,7 +112,7 @@ public:
     class Prepared
     {
     public:
-        Prepared(const DielectricTailLobe& lobe, const Vec3<Real>& wo)
+        REGAIN_HOST_DEVICE Prepared(const DielectricTailLobe& lobe, const Vec3<Real>& wo)
             : _lobe(lobe),
               _valid(detail::is_off_horizon(wo)),
               _wo(detail::select(_valid, wo, Vec3<Real>(Real(0), Real(0), Real(1)))),
@@ -127,24 +128,24 @@ public:
             _valid = detail::both<Real>(_valid, R + T > Real(0));
         }
 
-        const Vec3<Real>& wo() const { return _wo; }
-        void scale_by(const Color& weight)
+        REGAIN_HOST_DEVICE const Vec3<Real>& wo() const { return _wo; }
+        REGAIN_HOST_DEVICE void scale_by(const Color& weight)
         {
             _reflection *= weight;
             _transmission *= weight;
         }
 
         /// 1 - E^S(wo).
-        Real loss() const { return _split.reflected + _split.transmitted; }
+        REGAIN_HOST_DEVICE Real loss() const { return _split.reflected + _split.transmitted; }
 
-        Color eval(const Vec3<Real>& wi) const
+        REGAIN_HOST_DEVICE Color eval(const Vec3<Real>& wi) const
         {
             const Terms t = terms(wi);
             return detail::select(t.valid, value(t), Color(Real(0)));
         }
 
         /// u.x, u.y: the direction; u.z: reflection or transmission.
-        Sample<Real> sample(const Vec3<Real>& u) const
+        REGAIN_HOST_DEVICE Sample<Real> sample(const Vec3<Real>& u) const
         {
             const Mask reflect = (detail::saturate(u.z) < _p) | (_p >= Real(1));
             // Above where reflection meets a wo above, or transmission one below.
@@ -169,13 +170,13 @@ public:
             return s;
         }
 
-        Real pdf(const Vec3<Real>& wi) const
+        REGAIN_HOST_DEVICE Real pdf(const Vec3<Real>& wi) const
         {
             const Terms t = terms(wi);
             return detail::select(t.valid, density(t), Real(0));
         }
 
-        Albedo<Real> albedo() const
+        REGAIN_HOST_DEVICE Albedo<Real> albedo() const
         {
             return {_reflection * _split.reflected, _transmission * _split.transmitted};
         }
@@ -189,7 +190,7 @@ public:
             Vec3<Real> wi;
             Real mu;  // |cos theta_i|
         };
-        Terms terms(const Vec3<Real>& direction) const
+        REGAIN_HOST_DEVICE Terms terms(const Vec3<Real>& direction) const
         {
             Terms t;
             const Mask possible = detail::both<Real>(_valid, detail::is_off_horizon(direction));
@@ -205,7 +206,7 @@ public:
             return t;
         }
         // f cos theta_i.
-        Color value(const Terms& t) const
+        REGAIN_HOST_DEVICE Color value(const Terms& t) const
         {
             const Split i = _lobe.split(t.wi);
             const auto of_side = [&t](const Real(&side)[2]) {
@@ -216,7 +217,7 @@ public:
             return detail::select(t.reflected, _reflection * R, _transmission * T) * t.mu;
         }
         // Per steradian.
-        Real density(const Terms& t) const
+        REGAIN_HOST_DEVICE Real density(const Terms& t) const
         {
             const Real d =
                 chosen(t.reflected, t.below, [&t](const Missing& m) { return m.density(t.mu); });
@@ -226,7 +227,7 @@ public:
 
         // f of what is sampled there, asked of as few as the lanes need.
         template <class F>
-        Real chosen(const Mask& reflected, const Mask& below, const F& f) const
+        REGAIN_HOST_DEVICE Real chosen(const Mask& reflected, const Mask& below, const F& f) const
         {
             Real result(0);
             const Mask above = !below, transmitted = !reflected;
@@ -249,33 +250,34 @@ public:
         Color _reflection, _transmission;
     };
 
-    Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
+    REGAIN_HOST_DEVICE Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
 
 private:
     static constexpr int pieces = 3, cells = 24;
     using Missing = MissingEnergy<Real, pieces, cells>;
 
-    static Real total(const Color& c) { return c.x + c.y + c.z; }
+    REGAIN_HOST_DEVICE static Real total(const Color& c) { return c.x + c.y + c.z; }
 
     // 1 - E^S of a unit w, eta the index ahead over the one behind.
-    Real loss(Real eta, const Vec3<Real>& w) const
+    REGAIN_HOST_DEVICE Real loss(Real eta, const Vec3<Real>& w) const
     {
         return detail::select(_black, Real(0), Real(1) - _tables.albedo(_widths, eta, w));
     }
     // Before s: L r and L (1 - r).
-    Split divided(Real lost, Real eta, Real mu) const
+    REGAIN_HOST_DEVICE Split divided(Real lost, Real eta, Real mu) const
     {
         const Real R = lost * _tables.later_reflected_share(_widths.effective_alpha(), eta, mu);
         return {R, lost - R};
     }
-    Split looked_up(Real eta, const Vec3<Real>& w) const
+    REGAIN_HOST_DEVICE Split looked_up(Real eta, const Vec3<Real>& w) const
     {
         if (!_bound) return {Real(0), Real(0)};
         return divided(loss(eta, w), eta, detail::min(detail::abs(w.z), Real(1)));
     }
 
     // Finds s, and what is sampled.
-    void balance(const RelativeIndex<Real> (&index)[2], const DirectionAxes<Real>& axes)
+    REGAIN_HOST_DEVICE void balance(const RelativeIndex<Real> (&index)[2],
+                                    const DirectionAxes<Real>& axes)
     {
         const Real tiny = detail::constant<Real>(1e-30), one(1);
         // Between nodes that see nothing missing there may be something.
@@ -367,7 +369,8 @@ public:
 
     /// strength in [0, 1] scales the added lobes; clamped, NaN becomes 0. Without tables there are
     /// none.
-    DielectricTail(const Lobe& lobe, const DielectricTables& tables, Real strength = Real(1))
+    REGAIN_HOST_DEVICE DielectricTail(const Lobe& lobe, const DielectricTables& tables,
+                                      Real strength = Real(1))
         : DielectricWithAddedLobes<Lobe, DielectricTailLobe<Lobe>>(lobe, {lobe, tables, strength},
                                                                    strength)
     {}
@@ -376,7 +379,7 @@ public:
 /// The dielectric compensated by its tail at strength s in [0, 1]. The tables, of its distribution
 /// and the beta form of shadowing, serve the added lobes and, unless it has its own, its albedo.
 template <class Distribution>
-DielectricTail<Dielectric<Distribution>> fitted_tail(
+REGAIN_HOST_DEVICE DielectricTail<Dielectric<Distribution>> fitted_tail(
     Dielectric<Distribution> lobe, const DielectricTables& tables,
     typename Distribution::Real strength = typename Distribution::Real(1))
 {

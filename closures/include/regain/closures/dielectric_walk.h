@@ -59,21 +59,22 @@ public:
     /// eta: index on the -z side over index on the +z side, in [1e-2, 1e2], clamped, NaN becomes
     /// 1.5. Tints in [0, 1] per channel, clamped, NaN becomes 0: of all that leaves on a side,
     /// whatever it met before. eval_samples: walks that an eval takes, at least 1.
-    DielectricWalk(const Distribution& distribution, Real eta,
-                   const Color& reflection_tint = Color(Real(1)),
-                   const Color& transmission_tint = Color(Real(1)), int eval_samples = 1)
+    REGAIN_HOST_DEVICE DielectricWalk(const Distribution& distribution, Real eta,
+                                      const Color& reflection_tint = Color(Real(1)),
+                                      const Color& transmission_tint = Color(Real(1)),
+                                      int eval_samples = 1)
         : _lobe(distribution, eta, ScatterMode::RT, reflection_tint, transmission_tint,
                 TransmissionShadowing::beta),
           _eval_samples(eval_samples < 1 ? 1 : eval_samples)
     {}
 
-    const Distribution& distribution() const { return _lobe.distribution(); }
-    Real eta() const { return _lobe.eta(); }
-    const Color& reflection_tint() const { return _lobe.reflection_tint(); }
-    const Color& transmission_tint() const { return _lobe.transmission_tint(); }
-    int eval_samples() const { return _eval_samples; }
+    REGAIN_HOST_DEVICE const Distribution& distribution() const { return _lobe.distribution(); }
+    REGAIN_HOST_DEVICE Real eta() const { return _lobe.eta(); }
+    REGAIN_HOST_DEVICE const Color& reflection_tint() const { return _lobe.reflection_tint(); }
+    REGAIN_HOST_DEVICE const Color& transmission_tint() const { return _lobe.transmission_tint(); }
+    REGAIN_HOST_DEVICE int eval_samples() const { return _eval_samples; }
 
-    Traits traits() const
+    REGAIN_HOST_DEVICE Traits traits() const
     {
         Traits t = _lobe.traits();
         t.energy_preserving = true;
@@ -86,7 +87,7 @@ public:
     class Prepared
     {
     public:
-        Prepared(const DielectricWalk& closure, const Vec3<Real>& wo)
+        REGAIN_HOST_DEVICE Prepared(const DielectricWalk& closure, const Vec3<Real>& wo)
             : _distribution(closure.distribution()),
               _samples(closure._eval_samples),
               _valid(detail::is_off_horizon(wo)),
@@ -105,18 +106,18 @@ public:
               _transmission(closure.transmission_tint() * detail::select(_valid, Real(1), Real(0)))
         {}
 
-        Vec3<Real> wo() const { return turned(_wo); }
+        REGAIN_HOST_DEVICE Vec3<Real> wo() const { return turned(_wo); }
 
         /// Multiplies the closure weight: all that eval, sample and albedo return, and no direction
         /// or pdf.
-        void scale_by(const Color& weight)
+        REGAIN_HOST_DEVICE void scale_by(const Color& weight)
         {
             _reflection *= weight;
             _transmission *= weight;
         }
 
         /// An unbiased estimate; u in [0, 1)^3.
-        Color eval(const Vec3<Real>& direction, const Vec3<Real>& u) const
+        REGAIN_HOST_DEVICE Color eval(const Vec3<Real>& direction, const Vec3<Real>& u) const
         {
             const Vec3<Real> wi = safe(direction);
             const Mask beyond = wi.z < Real(0);
@@ -144,7 +145,7 @@ public:
         }
 
         /// u in [0, 1)^3. The weight is not eval / pdf: see walk.h.
-        Sample<Real> sample(const Vec3<Real>& u) const
+        REGAIN_HOST_DEVICE Sample<Real> sample(const Vec3<Real>& u) const
         {
             const WalkPath<Real> p = path(u);
             Sample<Real> s;
@@ -163,16 +164,16 @@ public:
             return s;
         }
 
-        Real pdf(const Vec3<Real>& wi) const
+        REGAIN_HOST_DEVICE Real pdf(const Vec3<Real>& wi) const
         {
             return detail::select(answers(wi), density(safe(wi)), Real(0));
         }
 
         /// The mean weight of 1024 walks.
-        Albedo<Real> albedo() const { return detail::mean_weight<Real>(*this); }
+        REGAIN_HOST_DEVICE Albedo<Real> albedo() const { return detail::mean_weight<Real>(*this); }
 
         /// One walk, with what sample does not tell.
-        WalkPath<Real> path(const Vec3<Real>& u) const
+        REGAIN_HOST_DEVICE WalkPath<Real> path(const Vec3<Real>& u) const
         {
             return trace<true>(u, [](const auto&...) {});
         }
@@ -181,21 +182,27 @@ public:
         using Depth = detail::WalkDepth<Real>;
         using Visible = decltype(std::declval<const Distribution&>().visible(Vec3<Real>()));
 
-        Real transmitted_share(double entering) const
+        REGAIN_HOST_DEVICE Real transmitted_share(double entering) const
         {
             return detail::select(_ahead.minus_one < Real(0), _ahead.eta * _ahead.eta * _wo.z,
                                   detail::constant<Real>(entering));
         }
 
-        Vec3<Real> turned(const Vec3<Real>& w) const { return {w.x, w.y, w.z * _side}; }
-        static Vec3<Real> outward(const Vec3<Real>& w) { return {w.x, w.y, detail::abs(w.z)}; }
-        Color tint(const Mask& beyond) const
+        REGAIN_HOST_DEVICE Vec3<Real> turned(const Vec3<Real>& w) const
+        {
+            return {w.x, w.y, w.z * _side};
+        }
+        REGAIN_HOST_DEVICE static Vec3<Real> outward(const Vec3<Real>& w)
+        {
+            return {w.x, w.y, detail::abs(w.z)};
+        }
+        REGAIN_HOST_DEVICE Color tint(const Mask& beyond) const
         {
             return detail::select(beyond, _transmission, _reflection);
         }
-        Depth start() const { return Depth(_wo.z, _visible.projected_area()); }
+        REGAIN_HOST_DEVICE Depth start() const { return Depth(_wo.z, _visible.projected_area()); }
 
-        Mask answers(const Vec3<Real>& wi) const
+        REGAIN_HOST_DEVICE Mask answers(const Vec3<Real>& wi) const
         {
             const Mask beyond = detail::quiet_less(wi.z * _side, Real(0));
             return detail::both<Real>(
@@ -203,21 +210,21 @@ public:
                 !detail::both<Real>(_narrow, beyond));
         }
         // On the side of wo.
-        Vec3<Real> safe(const Vec3<Real>& wi) const
+        REGAIN_HOST_DEVICE Vec3<Real> safe(const Vec3<Real>& wi) const
         {
             return detail::select(detail::is_off_horizon(wi), turned(wi),
                                   Vec3<Real>(Real(0), Real(0), Real(1)));
         }
 
         // sigma(v) times the density of wi after one facet, in the frame of v's side.
-        Real reflected(const Vec3<Real>& v, const Vec3<Real>& wi,
-                       const RelativeIndex<Real>& index) const
+        REGAIN_HOST_DEVICE Real reflected(const Vec3<Real>& v, const Vec3<Real>& wi,
+                                          const RelativeIndex<Real>& index) const
         {
             const detail::FacetReflection<Real> facet(_distribution, v, wi);
             return facet.quarter_D * DielectricFresnel<Real>(index).reflectance(facet.cosine);
         }
-        Real refracted(const Vec3<Real>& v, const Vec3<Real>& wi,
-                       const RelativeIndex<Real>& index) const
+        REGAIN_HOST_DEVICE Real refracted(const Vec3<Real>& v, const Vec3<Real>& wi,
+                                          const RelativeIndex<Real>& index) const
         {
             const detail::FacetRefraction<Real> facet(_distribution, v, wi, index);
             return facet.D_jacobian *
@@ -225,7 +232,8 @@ public:
         }
 
         // What leaves after one bounce; up is wi in the frame of its own side.
-        Real first_bounce(const Vec3<Real>& up, const Real& area_i, const Mask& beyond) const
+        REGAIN_HOST_DEVICE Real first_bounce(const Vec3<Real>& up, const Real& area_i,
+                                             const Mask& beyond) const
         {
             const Real area = _visible.projected_area();
             Real value(0);
@@ -244,7 +252,7 @@ public:
         // taken off its weight. join(v, sigma(v), side, weight, depth, first) is called at each
         // facet but the first, before it scatters; v points against the ray that arrives.
         template <bool leaves_at_once, class Join>
-        WalkPath<Real> trace(const Vec3<Real>& u, const Join& join) const
+        REGAIN_HOST_DEVICE WalkPath<Real> trace(const Vec3<Real>& u, const Join& join) const
         {
             constexpr bool three = Distribution::random_numbers > 2;
             RandomStream<Real> stream(Vec3<Real>(u.z, u.x, u.y));
@@ -297,15 +305,16 @@ public:
 
         // Where transmission is a delta lobe the surface deflects nothing, and that it is crossed
         // again and again at grazing angles, about 1 / mu times, changes nothing.
-        Mask passed(const Vec3<Real>& v, const Mask& below) const
+        REGAIN_HOST_DEVICE Mask passed(const Vec3<Real>& v, const Mask& below) const
         {
             return detail::both<Real>(detail::both<Real>(_narrow, below), v.z < Real(0));
         }
 
         // At the facet m, in the lanes `active`: v, against the ray that arrives, becomes what is
         // against the one that departs, in the frame of the side on which it does.
-        void scatter(Vec3<Real>& v, Mask& below, Depth& depth, const Vec3<Real>& m,
-                     const Real& choice, const Real& first, const Mask& active) const
+        REGAIN_HOST_DEVICE void scatter(Vec3<Real>& v, Mask& below, Depth& depth,
+                                        const Vec3<Real>& m, const Real& choice, const Real& first,
+                                        const Mask& active) const
         {
             const RelativeIndex<Real> index = detail::select(below, _behind, _ahead);
             const Real cosine = detail::dot(v, m);
@@ -327,7 +336,7 @@ public:
         }
 
         // Near the density of sample, per steradian; wi on the side of wo.
-        Real density(const Vec3<Real>& wi) const
+        REGAIN_HOST_DEVICE Real density(const Vec3<Real>& wi) const
         {
             const Mask beyond = wi.z < Real(0);
             const Vec3<Real> up = outward(wi);
@@ -362,12 +371,12 @@ public:
             return (Real(1) - even) * value / _visible.projected_area() +
                    up.z * even * detail::constant<Real>(0.159154943091895336);
         }
-        Real leaves(const Real& z, const Real& area_i) const
+        REGAIN_HOST_DEVICE Real leaves(const Real& z, const Real& area_i) const
         {
             const Real out = z * _visible.projected_area();
             return out / (out + area_i * _wo.z);
         }
-        Real leaves_beyond(const Real& z, const Real& area_i) const
+        REGAIN_HOST_DEVICE Real leaves_beyond(const Real& z, const Real& area_i) const
         {
             const Real out = z * _wo.z;
             return out / (out + area_i * _visible.projected_area());
@@ -387,7 +396,7 @@ public:
         Color _reflection, _transmission;  // what multiplies the lobes
     };
 
-    Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
+    REGAIN_HOST_DEVICE Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
 
 private:
     Dielectric<Distribution> _lobe;

@@ -31,7 +31,8 @@ namespace detail {
 
 /// `forward` of a distribution; without that table about that of GGX.
 template <class Real, class Distribution>
-Real later_forward(const MicrofacetTables& shape, const Distribution& distribution)
+REGAIN_HOST_DEVICE Real later_forward(const MicrofacetTables& shape,
+                                      const Distribution& distribution)
 {
     if (shape.has_later_shape())
         return saturate(shape.later_forward(TableAxes<Real>(distribution)));
@@ -49,7 +50,8 @@ public:
 
     /// alpha in (0, 1], forward in [0, 1], eta > 0 the index ahead of wo over the one behind,
     /// mu = |cos theta_o| in [0, 1].
-    LaterDielectricDensity(const Real& alpha, const Real& forward, const Real& eta, const Real& mu)
+    REGAIN_HOST_DEVICE LaterDielectricDensity(const Real& alpha, const Real& forward,
+                                              const Real& eta, const Real& mu)
     {
         const Real one(1);
         Real of[values];
@@ -70,7 +72,7 @@ public:
     }
 
     /// Per steradian; integrates to 1 over both sides. wi is beyond the surface or not.
-    Real at(const Vec3<Real>& wo, const Vec3<Real>& wi, const Mask& beyond) const
+    REGAIN_HOST_DEVICE Real at(const Vec3<Real>& wo, const Vec3<Real>& wi, const Mask& beyond) const
     {
         const Real z = min(abs(wi.z), Real(1)), one(1);
         const auto of = [&](Real Side::*member) {
@@ -94,8 +96,8 @@ private:
     static constexpr int terms = later_dielectric_terms, values = later_dielectric_values;
 
     // The polynomials.
-    static void find(Real (&of)[values], const Real& alpha, const Real& m, const Real& eta,
-                     const Real& mu)
+    REGAIN_HOST_DEVICE static void find(Real (&of)[values], const Real& alpha, const Real& m,
+                                        const Real& eta, const Real& mu)
     {
         // Beyond what was fitted the ends serve.
         const Real a = detail::sqrt(max(alpha, constant<Real>(0.1)));
@@ -107,20 +109,20 @@ private:
                                ll * mu, lu * mu, al * l, ll * m, al * mu, lu * m};
         const Mask inside = eta < Real(1);
         const bool all_inside = all<Real>(inside);
-        sum(of, later_dielectric_shape[all_inside ? 1 : 0], x);
+        sum(of, later_dielectric_shape(all_inside), x);
         if (all_inside || !any<Real>(inside)) return;
         Real of_inside[values];
-        sum(of_inside, later_dielectric_shape[1], x);
+        sum(of_inside, later_dielectric_shape(true), x);
         for (int j = 0; j < values; ++j) of[j] = select(inside, of_inside[j], of[j]);
     }
-    static void sum(Real (&of)[values], const float (&factors)[terms][values],
-                    const Real (&x)[terms])
+    REGAIN_HOST_DEVICE static void sum(Real (&of)[values], const float (&factors)[terms][values],
+                                       const Real (&x)[terms])
     {
         for (int j = 0; j < values; ++j) of[j] = Real(factors[0][j]);
         for (int i = 1; i < terms; ++i)
             for (int j = 0; j < values; ++j) of[j] += Real(factors[i][j]) * x[i];
     }
-    static Real between(const Real& x, double low, double high)
+    REGAIN_HOST_DEVICE static Real between(const Real& x, double low, double high)
     {
         return min(max(x, constant<Real>(low)), constant<Real>(high));
     }
@@ -132,13 +134,13 @@ private:
         Real weight = Real(0);
 
         // I above.
-        Real integral() const
+        REGAIN_HOST_DEVICE Real integral() const
         {
             const Real middle = min(max(c, Real(0)), Real(1));
             return part(Real(0), middle, inv_below) + part(middle, Real(1), inv_above);
         }
         // int_low^high z (1 + t^2)^{-3/2} dz.
-        Real part(const Real& low, const Real& high, const Real& inv_w) const
+        REGAIN_HOST_DEVICE Real part(const Real& low, const Real& high, const Real& inv_w) const
         {
             const Real w = Real(1) / inv_w;
             const auto antiderivative = [&](const Real& z) {

@@ -26,7 +26,7 @@ public:
     static constexpr int random_numbers = Mixture::random_numbers;
 
     /// strength is what the added lobes were built with; clamped to [0, 1], NaN becomes 0.
-    DielectricWithAddedLobes(const Lobe& lobe, const Added& added, Real strength)
+    REGAIN_HOST_DEVICE DielectricWithAddedLobes(const Lobe& lobe, const Added& added, Real strength)
         : _mixture(lobe, added)
     {
         const Real F = DielectricFresnel<Real>(lobe.eta()).average_reflectance();
@@ -42,10 +42,10 @@ public:
                      detail::all<Real>(distribution.alpha_x() == distribution.alpha_y());
     }
 
-    const Lobe& lobe() const { return _mixture.first(); }
-    const Added& added_lobe() const { return _mixture.second(); }
+    REGAIN_HOST_DEVICE const Lobe& lobe() const { return _mixture.first(); }
+    REGAIN_HOST_DEVICE const Added& added_lobe() const { return _mixture.second(); }
 
-    Traits traits() const
+    REGAIN_HOST_DEVICE Traits traits() const
     {
         Traits t = _mixture.traits();
         t.energy_preserving = _preserves;
@@ -55,15 +55,16 @@ public:
     class Prepared : public Mixture::Prepared
     {
     public:
-        Prepared(const DielectricWithAddedLobes& closure, const Vec3<Real>& wo)
+        REGAIN_HOST_DEVICE Prepared(const DielectricWithAddedLobes& closure, const Vec3<Real>& wo)
             : Prepared(closure, closure.lobe().prepare(wo), closure.added_lobe().prepare(wo))
         {}
 
     private:
         // A sample of the lobe is worth about 1 or nothing, so its second moment is its albedo. In
         // proportion to albedos the largest weight would be 1 / E^S, 7 where this has 3.
-        Prepared(const DielectricWithAddedLobes& closure, const typename Lobe::Prepared& lobe,
-                 const typename Added::Prepared& added)
+        REGAIN_HOST_DEVICE Prepared(const DielectricWithAddedLobes& closure,
+                                    const typename Lobe::Prepared& lobe,
+                                    const typename Added::Prepared& added)
             : Mixture::Prepared(lobe, added, size(closure, lobe, Real(1) - added.loss()),
                                 total(added.albedo()))
         {}
@@ -71,8 +72,8 @@ public:
         // Of reflection alone a sample is worth its share of E^S, which the average over directions
         // does not tell: near eta = 1 nothing reflects but what grazes. Of transmission alone the
         // average is better, since tables know little of a share that is next to nothing.
-        static Real size(const DielectricWithAddedLobes& closure,
-                         const typename Lobe::Prepared& lobe, Real E)
+        REGAIN_HOST_DEVICE static Real size(const DielectricWithAddedLobes& closure,
+                                            const typename Lobe::Prepared& lobe, Real E)
         {
             const Real root = detail::sqrt(detail::max(E, Real(0)));
             if (closure.lobe().scatter_mode() != ScatterMode::R || !closure.lobe().tables())
@@ -81,11 +82,14 @@ public:
         }
     };
 
-    Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
+    REGAIN_HOST_DEVICE Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
 
 private:
-    static Real total(const Color& c) { return c.x + c.y + c.z; }
-    static Real total(const Albedo<Real>& a) { return total(a.reflect) + total(a.transmit); }
+    REGAIN_HOST_DEVICE static Real total(const Color& c) { return c.x + c.y + c.z; }
+    REGAIN_HOST_DEVICE static Real total(const Albedo<Real>& a)
+    {
+        return total(a.reflect) + total(a.transmit);
+    }
 
     Mixture _mixture;
     Real _scattered;  // how much of what is not lost is seen, over all directions of wo

@@ -22,13 +22,13 @@ public:
     static constexpr bool is_diffuse = true;
 
     /// Albedo in [0, 1] per channel; outside it is clamped, NaN becomes 0.
-    explicit Diffuse(const Color& albedo)
+    REGAIN_HOST_DEVICE explicit Diffuse(const Color& albedo)
         : _albedo(detail::per_channel(albedo, [](Real v) { return detail::saturate(v); }))
     {}
 
-    const Color& color() const { return _albedo; }
+    REGAIN_HOST_DEVICE const Color& color() const { return _albedo; }
 
-    Traits traits() const
+    REGAIN_HOST_DEVICE Traits traits() const
     {
         Traits t;
         t.reciprocal = true;
@@ -41,22 +41,22 @@ public:
     class Prepared
     {
     public:
-        Prepared(const Diffuse& closure, const Vec3<Real>& wo)
+        REGAIN_HOST_DEVICE Prepared(const Diffuse& closure, const Vec3<Real>& wo)
             : _valid(detail::is_above_horizon(wo)),
               _wo(detail::select(_valid, wo, Vec3<Real>(Real(0), Real(0), Real(1)))),
               _weight(detail::select(_valid, closure._albedo, Color(Real(0))))
         {}
 
-        const Vec3<Real>& wo() const { return _wo; }
-        void scale_by(const Color& weight) { _weight *= weight; }
+        REGAIN_HOST_DEVICE const Vec3<Real>& wo() const { return _wo; }
+        REGAIN_HOST_DEVICE void scale_by(const Color& weight) { _weight *= weight; }
 
-        Color eval(const Vec3<Real>& wi) const { return _weight * pdf(wi); }
+        REGAIN_HOST_DEVICE Color eval(const Vec3<Real>& wi) const { return _weight * pdf(wi); }
 
-        Sample<Real> sample(const Vec2<Real>& u) const
+        REGAIN_HOST_DEVICE Sample<Real> sample(const Vec2<Real>& u) const
         {
             return sample(detail::two_numbers<Diffuse>(u));
         }
-        Sample<Real> sample(const Vec3<Real>& u) const
+        REGAIN_HOST_DEVICE Sample<Real> sample(const Vec3<Real>& u) const
         {
             // The horizon itself has no density.
             const Real sine2 = detail::saturate(u.x);
@@ -75,14 +75,14 @@ public:
             return s;
         }
 
-        Real pdf(const Vec3<Real>& wi) const
+        REGAIN_HOST_DEVICE Real pdf(const Vec3<Real>& wi) const
         {
             const Mask valid = detail::both<Real>(_valid, detail::is_above_horizon(wi));
             return detail::select(valid, wi.z, Real(0)) *
                    detail::constant<Real>(0.318309886183790671538);
         }
 
-        Albedo<Real> albedo() const { return {_weight, Color(Real(0))}; }
+        REGAIN_HOST_DEVICE Albedo<Real> albedo() const { return {_weight, Color(Real(0))}; }
 
     private:
         Mask _valid;
@@ -90,7 +90,7 @@ public:
         Color _weight;
     };
 
-    Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
+    REGAIN_HOST_DEVICE Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
 
 private:
     Color _albedo;

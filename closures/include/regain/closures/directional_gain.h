@@ -34,7 +34,7 @@ REGAIN_NAMESPACE_BEGIN
 
 /// The sum above, per channel, for x in [0, 1] and q in [0, 1).
 template <class Real>
-Color3<Real> later_bounces_tint(const Color3<Real>& x, Real q)
+REGAIN_HOST_DEVICE Color3<Real> later_bounces_tint(const Color3<Real>& x, Real q)
 {
     return detail::per_channel(x, [&](Real F) { return F * (Real(1) - q) / (Real(1) - q * F); });
 }
@@ -52,8 +52,8 @@ public:
     /// that nobody knows as a curve is taken for its average: ConstantFresnel(F_ss). strength is
     /// clamped to [0, 1], NaN becomes 0.
     template <class Distribution>
-    DirectionalGain(const Distribution& distribution, const Fresnel& fresnel,
-                    const MicrofacetTables& tables, Real strength)
+    REGAIN_HOST_DEVICE DirectionalGain(const Distribution& distribution, const Fresnel& fresnel,
+                                       const MicrofacetTables& tables, Real strength)
         : _tables(tables), _axes(distribution), _fresnel(fresnel), _strength(Real(0))
     {
         _bound = tables.has_albedo() && tables.has_later_bounces();
@@ -66,7 +66,7 @@ public:
                      detail::all<Real>(distribution.alpha_x() == distribution.alpha_y());
     }
 
-    Color at(const Vec3<Real>& wo) const
+    REGAIN_HOST_DEVICE Color at(const Vec3<Real>& wo) const
     {
         if (!_bound) return Color(Real(1));
         const Real mu = detail::saturate(wo.z);
@@ -77,7 +77,7 @@ public:
 
     /// The colour of all bounces after the first, in [0, 1]; mu = cos theta_o in [0, 1]. Asked only
     /// where the tables are there.
-    Color F_ms(Real mu) const
+    REGAIN_HOST_DEVICE Color F_ms(Real mu) const
     {
         // Short of 1, where a perfect mirror's series has no sum.
         const Real q = detail::min(_tables.later_share(_axes, mu), detail::constant<Real>(0.999));
@@ -86,7 +86,7 @@ public:
     }
 
     /// At full strength; of an anisotropic lobe it is not promised.
-    bool energy_preserving() const { return _bound && _preserves; }
+    REGAIN_HOST_DEVICE bool energy_preserving() const { return _bound && _preserves; }
 
 private:
     MicrofacetTables _tables;
@@ -99,7 +99,7 @@ private:
 /// The lobe compensated by its directional gain at strength s in [0, 1]. The tables serve the gain
 /// and, unless the lobe has its own, its albedo.
 template <class Lobe>
-Compensated<Lobe, DirectionalGain<typename Lobe::Fresnel>> directional(
+REGAIN_HOST_DEVICE Compensated<Lobe, DirectionalGain<typename Lobe::Fresnel>> directional(
     Lobe lobe, const MicrofacetTables& tables,
     typename Lobe::Real strength = typename Lobe::Real(1))
 {

@@ -12,7 +12,7 @@
 ///     gamma(), tail()          tail parameter; its coordinate in [0, 1] along a table's third axis
 ///     tail_length()            of slopes, where anisotropy.h knows it: 0 Beckmann's, 1 GGX's
 ///     cosine_axis              static: how tables of it run along the cosine; root if not there
-///     table_width(alpha)       static, with a tail only: coordinate along a table's second axis
+///     width_axis               static: how they run along the width; root if not there
 ///     D(m), D(h, length2)      density of normals, per steradian, int D(m) m_z dm = 1; h = m |h|
 ///                              need not be unit, length2 = h.h
 ///     projected_area(w)        sigma(w) = int max(0, w.m) D(m) dm, the area of the visible
@@ -38,8 +38,9 @@
 
 REGAIN_NAMESPACE_BEGIN
 
-/// How the cosine runs along the first axis of a table: see table.h.
+/// How the cosine runs along the first axis of a table, and a width along the second: see table.h.
 enum class CosineAxis { root, plain, tail };
+enum class WidthAxis { root, gtr, std };
 
 namespace detail {
 
@@ -54,24 +55,26 @@ struct CosineAxisOf<Distribution, std::void_t<decltype(Distribution::cosine_axis
     static constexpr CosineAxis value = Distribution::cosine_axis;
 };
 
+template <class Distribution, class = void>
+struct WidthAxisOf
+{
+    static constexpr WidthAxis value = WidthAxis::root;
+};
+template <class Distribution>
+struct WidthAxisOf<Distribution, std::void_t<decltype(Distribution::width_axis)>>
+{
+    static constexpr WidthAxis value = Distribution::width_axis;
+};
+
 /// The third table coordinate of a distribution: 0 where it has no tail parameter.
 template <class Distribution>
-typename Distribution::Real tail_of([[maybe_unused]] const Distribution& distribution)
+REGAIN_HOST_DEVICE typename Distribution::Real tail_of(
+    [[maybe_unused]] const Distribution& distribution)
 {
     if constexpr (Distribution::has_tail)
         return distribution.tail();
     else
         return typename Distribution::Real(0);
-}
-
-/// The second table coordinate of a width: its root where there is no tail parameter.
-template <class Distribution>
-typename Distribution::Real table_width_of(typename Distribution::Real alpha)
-{
-    if constexpr (Distribution::has_tail)
-        return Distribution::table_width(alpha);
-    else
-        return sqrt(alpha);
 }
 
 }  // namespace detail

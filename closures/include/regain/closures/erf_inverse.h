@@ -18,7 +18,7 @@ REGAIN_NAMESPACE_BEGIN
 namespace detail {
 
 template <class Real>
-Real erf_inverse(const Real& y)
+REGAIN_HOST_DEVICE Real erf_inverse(const Real& y)
 {
     constexpr bool single = sizeof(ScalarOf<Real>) == 4;
     constexpr double ulp = single ? 0x1p-24 : 0x1p-53;

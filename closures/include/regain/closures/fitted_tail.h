@@ -49,11 +49,11 @@ template <class Real>
 class ColorCurve
 {
 public:
-    ColorCurve() : ColorCurve([](Real) { return Color3<Real>(Real(1)); }) {}
+    REGAIN_HOST_DEVICE ColorCurve() : ColorCurve([](Real) { return Color3<Real>(Real(1)); }) {}
 
     /// color(mu) for mu in [0, 1].
     template <class F>
-    explicit ColorCurve(const F& color)
+    REGAIN_HOST_DEVICE explicit ColorCurve(const F& color)
     {
         for (int i = 0; i < nodes; ++i)
             _coefficient[i] = color(constant<Real>(place(i) * place(i)));
@@ -65,7 +65,7 @@ public:
     }
 
     /// In [0, 1] per channel.
-    Color3<Real> at(Real mu) const
+    REGAIN_HOST_DEVICE Color3<Real> at(Real mu) const
     {
         const Real x = sqrt(mu);
         Color3<Real> sum = _coefficient[nodes - 1];
@@ -77,7 +77,7 @@ public:
 private:
     static constexpr int nodes = 6;
     // Chebyshev's, in [0, 1].
-    static constexpr double place(int i)
+    REGAIN_HOST_DEVICE static constexpr double place(int i)
     {
         constexpr double x[nodes] = {0.017037086855465844, 0.14644660940672624,
                                      0.37059047744873963,  0.62940952255126037,
@@ -103,8 +103,8 @@ public:
     /// Of `tables` it needs E_ss, falloff, dip, q_ms, mu_ms, spread, forward and tilt. strength in
     /// [0, 1] scales the lobe; clamped, NaN becomes 0.
     template <class Distribution, class Fresnel>
-    FittedTailLobe(const Distribution& distribution, const Fresnel& fresnel,
-                   const MicrofacetTables& tables, Real strength)
+    REGAIN_HOST_DEVICE FittedTailLobe(const Distribution& distribution, const Fresnel& fresnel,
+                                      const MicrofacetTables& tables, Real strength)
         : _tables(tables),
           _axes(distribution),
           _black(distribution.is_delta()),
@@ -161,20 +161,20 @@ public:
         _azimuth = AzimuthSpread<Real>(k * k, detail::saturate(t.later_forward(_axes)));
     }
 
-    bool bound() const { return _bound; }
-    const MissingEnergy<Real>& missing() const { return _missing; }
-    const AzimuthSpread<Real>& azimuth() const { return _azimuth; }
-    const Color& tilt() const { return _tilt; }
-    const Color& mean_cosine() const { return _mean_cosine; }
+    REGAIN_HOST_DEVICE bool bound() const { return _bound; }
+    REGAIN_HOST_DEVICE const MissingEnergy<Real>& missing() const { return _missing; }
+    REGAIN_HOST_DEVICE const AzimuthSpread<Real>& azimuth() const { return _azimuth; }
+    REGAIN_HOST_DEVICE const Color& tilt() const { return _tilt; }
+    REGAIN_HOST_DEVICE const Color& mean_cosine() const { return _mean_cosine; }
 
     /// 1 - E_ss of a unit w, w.z in [0, 1].
-    Real loss(const Vec3<Real>& w) const
+    REGAIN_HOST_DEVICE Real loss(const Vec3<Real>& w) const
     {
         if (!_bound) return Real(0);
         return detail::select(_black, Real(0), Real(1) - _axes.albedo(_tables, w));
     }
     /// M at mu in [0, 1]; where the lobe is isotropic, all of the loss.
-    Real common_loss(Real mu) const
+    REGAIN_HOST_DEVICE Real common_loss(Real mu) const
     {
         if (_axes.isotropic()) return loss({Real(0), Real(0), mu});
         const Real sine = detail::sqrt(detail::max((Real(1) - mu) * (Real(1) + mu), Real(0)));
@@ -182,9 +182,9 @@ public:
     }
 
     /// t at mu in [0, 1].
-    Color tint(Real mu) const { return _tint.at(mu); }
+    REGAIN_HOST_DEVICE Color tint(Real mu) const { return _tint.at(mu); }
 
-    Traits traits() const
+    REGAIN_HOST_DEVICE Traits traits() const
     {
         Traits t;
         t.reciprocal = true;
@@ -199,7 +199,7 @@ public:
         using Polar = typename AzimuthSpread<Real>::Polar;
 
     public:
-        Prepared(const FittedTailLobe& lobe, const Vec3<Real>& wo)
+        REGAIN_HOST_DEVICE Prepared(const FittedTailLobe& lobe, const Vec3<Real>& wo)
             : _lobe(lobe),
               _valid(detail::is_above_horizon(wo)),
               _wo(detail::normalised(
@@ -220,23 +220,23 @@ public:
             _weight = detail::select(_valid, _weight, Color(Real(0)));
         }
 
-        const Vec3<Real>& wo() const { return _wo; }
-        void scale_by(const Color& weight) { _weight *= weight; }
+        REGAIN_HOST_DEVICE const Vec3<Real>& wo() const { return _wo; }
+        REGAIN_HOST_DEVICE void scale_by(const Color& weight) { _weight *= weight; }
 
         /// 1 - E_ss(wo).
-        Real loss() const { return _loss; }
+        REGAIN_HOST_DEVICE Real loss() const { return _loss; }
 
-        Color eval(const Vec3<Real>& wi) const
+        REGAIN_HOST_DEVICE Color eval(const Vec3<Real>& wi) const
         {
             const Terms t = terms(wi);
             return detail::select(t.valid, value(t), Color(Real(0)));
         }
 
-        Sample<Real> sample(const Vec2<Real>& u) const
+        REGAIN_HOST_DEVICE Sample<Real> sample(const Vec2<Real>& u) const
         {
             return sample(detail::two_numbers<FittedTailLobe>(u));
         }
-        Sample<Real> sample(const Vec3<Real>& u) const
+        REGAIN_HOST_DEVICE Sample<Real> sample(const Vec3<Real>& u) const
         {
             const Real mu = _lobe._missing.sample(detail::saturate(u.x));
             const Real sine = detail::sqrt((Real(1) - mu) * (Real(1) + mu));
@@ -255,13 +255,16 @@ public:
             return result;
         }
 
-        Real pdf(const Vec3<Real>& wi) const
+        REGAIN_HOST_DEVICE Real pdf(const Vec3<Real>& wi) const
         {
             const Terms t = terms(wi);
             return detail::select(t.valid, density(t), Real(0));
         }
 
-        Albedo<Real> albedo() const { return {_weight * (_energy + _rest), Color(Real(0))}; }
+        REGAIN_HOST_DEVICE Albedo<Real> albedo() const
+        {
+            return {_weight * (_energy + _rest), Color(Real(0))};
+        }
 
     private:
         struct Terms
@@ -270,7 +273,7 @@ public:
             Vec3<Real> wi;
             Real azimuth;  // 2 pi Phi
         };
-        Terms terms(const Vec3<Real>& direction) const
+        REGAIN_HOST_DEVICE Terms terms(const Vec3<Real>& direction) const
         {
             Terms t;
             t.valid = detail::both<Real>(_valid, detail::is_above_horizon(direction));
@@ -281,7 +284,8 @@ public:
             return t;
         }
         // wi of a polar angle, by Phi or, for the share of N, by azimuth_skew.h.
-        Vec3<Real> some_azimuth(const Real& mu, const Real& sine, const Real& u) const
+        REGAIN_HOST_DEVICE Vec3<Real> some_azimuth(const Real& mu, const Real& sine,
+                                                   const Real& u) const
         {
             if (_lobe._axes.isotropic()) return some_way_ahead(mu, sine, u);
             const Real tiny = detail::constant<Real>(1e-30);
@@ -291,7 +295,8 @@ public:
             return detail::select(common, some_way_ahead(mu, sine, detail::min(share, Real(1))),
                                   _lobe._axes.azimuths().sample(mu, detail::saturate(rest)));
         }
-        Vec3<Real> some_way_ahead(const Real& mu, const Real& sine, const Real& u) const
+        REGAIN_HOST_DEVICE Vec3<Real> some_way_ahead(const Real& mu, const Real& sine,
+                                                     const Real& u) const
         {
             const Real phi = _lobe._azimuth.about(_polar, {mu, sine}).sample(u);
             // Turned from straight ahead, which is any way for wo along the normal.
@@ -303,7 +308,7 @@ public:
             return {sine * (x * c - y * s), sine * (y * c + x * s), mu};
         }
         // f cos theta_i.
-        Color value(const Terms& t) const
+        REGAIN_HOST_DEVICE Color value(const Terms& t) const
         {
             const Color one(Real(1));
             const Real mu = t.wi.z, inv_pi = detail::constant<Real>(0.318309886183790671538);
@@ -318,7 +323,7 @@ public:
                                 (_lobe.rest(t.wi, loss) * mu * inv_pi);
         }
         // Per steradian.
-        Real density(const Terms& t) const
+        REGAIN_HOST_DEVICE Real density(const Terms& t) const
         {
             Real azimuth = t.azimuth;
             if (!_lobe._axes.isotropic())
@@ -338,11 +343,11 @@ public:
         Real _common = Real(1);        // share of M_o in the loss
     };
 
-    Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
+    REGAIN_HOST_DEVICE Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
 
 private:
     // N of w, M being common to its cosine.
-    Real rest(const Vec3<Real>& w, Real common) const
+    REGAIN_HOST_DEVICE Real rest(const Vec3<Real>& w, Real common) const
     {
         return detail::max(loss(w) - common, Real(0));
     }
@@ -369,7 +374,8 @@ public:
 
     /// strength in [0, 1] scales the added lobe; clamped, NaN becomes 0. Without its tables there
     /// is no added lobe.
-    FittedTail(const Lobe& lobe, const MicrofacetTables& tables, Real strength = Real(1))
+    REGAIN_HOST_DEVICE FittedTail(const Lobe& lobe, const MicrofacetTables& tables,
+                                  Real strength = Real(1))
         : ReflectionWithAddedLobe<Lobe, FittedTailLobe<Real>>(
               lobe, {lobe.distribution(), lobe.fresnel(), tables, strength}, strength)
     {}
@@ -378,8 +384,9 @@ public:
 /// The lobe compensated by its tail at strength s in [0, 1]. The tables serve the tail and, unless
 /// the lobe has its own, its albedo.
 template <class Lobe>
-FittedTail<Lobe> fitted_tail(Lobe lobe, const MicrofacetTables& tables,
-                             typename Lobe::Real strength = typename Lobe::Real(1))
+REGAIN_HOST_DEVICE FittedTail<Lobe> fitted_tail(
+    Lobe lobe, const MicrofacetTables& tables,
+    typename Lobe::Real strength = typename Lobe::Real(1))
 {
     if (!lobe.tables().has_albedo()) lobe.set_tables(tables);
     return {lobe, tables, strength};

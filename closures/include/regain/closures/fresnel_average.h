@@ -22,7 +22,7 @@ REGAIN_NAMESPACE_BEGIN
 /// Gauss-Jacobi quadrature for the weight 2 mu: exact where F is a polynomial of degree 5 (three
 /// nodes) or 9 (five nodes).
 template <int nodes, class Fresnel>
-auto gauss_jacobi_average(const Fresnel& fresnel)
+REGAIN_HOST_DEVICE auto gauss_jacobi_average(const Fresnel& fresnel)
 {
     static_assert(nodes == 3 || nodes == 5, "three or five nodes");
     using Real = typename Fresnel::Real;
@@ -41,7 +41,7 @@ auto gauss_jacobi_average(const Fresnel& fresnel)
 
 /// Gauss-Legendre quadrature of 2 mu F with four nodes.
 template <class Fresnel>
-auto gauss_legendre_average(const Fresnel& fresnel)
+REGAIN_HOST_DEVICE auto gauss_legendre_average(const Fresnel& fresnel)
 {
     using Real = typename Fresnel::Real;
     constexpr double x[] = {0.0694318442029737124, 0.330009478207571868, 0.669990521792428132,
@@ -58,7 +58,7 @@ auto gauss_legendre_average(const Fresnel& fresnel)
 /// nodes, gathered at 0, 1 and at `kink` in [0, 1), where f may have a square root's edge, as at
 /// the critical angle. 64 evaluations: for checks and set-up.
 template <class Real, class F>
-Real exact_average(const F& f, Real kink)
+REGAIN_HOST_DEVICE Real exact_average(const F& f, Real kink)
 {
     constexpr double x[] = {
         0.005299532504175033, 0.027712488463383711, 0.067184398806084128, 0.122297795822498483,
@@ -91,7 +91,7 @@ Real exact_average(const F& f, Real kink)
 /// The average of a conductor from its reflectance at normal incidence and at the cosine 1/7 alone:
 /// Schlick's curve with the tint at 82 degrees through both has a closed form. Cycles' way.
 template <class Fresnel>
-auto f82_average(const Fresnel& fresnel)
+REGAIN_HOST_DEVICE auto f82_average(const Fresnel& fresnel)
 {
     using Real = typename Fresnel::Real;
     const auto F0 = fresnel.at(Real(1)), F82 = fresnel.at(detail::constant<Real>(1.0 / 7));
@@ -104,7 +104,7 @@ auto f82_average(const Fresnel& fresnel)
 /// Artist-friendly conductor of reflectivity r and edge tint g in [0, 1]: a cubic fit. Kulla and
 /// Conty 2017.
 template <class Real>
-Real kulla_conty_conductor_average(Real r, Real g)
+REGAIN_HOST_DEVICE Real kulla_conty_conductor_average(Real r, Real g)
 {
     const auto c = [](double x) { return detail::constant<Real>(x); };
     return c(0.087237) + g * (c(0.0230685) + g * (c(-0.0864902) + g * c(0.0774594))) +
@@ -115,7 +115,7 @@ Real kulla_conty_conductor_average(Real r, Real g)
 /// Dielectric of relative index eta, a rational fit above 1 and a cubic below, where it is to be
 /// used down to 1/3. Kulla and Conty 2017.
 template <class Real>
-Real kulla_conty_dielectric_average(Real eta)
+REGAIN_HOST_DEVICE Real kulla_conty_dielectric_average(Real eta)
 {
     const auto c = [](double x) { return detail::constant<Real>(x); };
     const Real above = (eta - Real(1)) / (c(4.08567) + c(1.00071) * eta);
@@ -126,7 +126,7 @@ Real kulla_conty_dielectric_average(Real eta)
 /// Dielectric of relative index eta in [1/3, 3]: d'Eon's fit, as OpenPBR Surface 1.1 states it;
 /// below 1 by 1 - F_ss(eta) = eta^2 (1 - F_ss(1 / eta)).
 template <class Real>
-Real deon_dielectric_average(Real eta)
+REGAIN_HOST_DEVICE Real deon_dielectric_average(Real eta)
 {
     const auto c = [](double x) { return detail::constant<Real>(x); };
     const MaskOf<Real> below = eta < Real(1);

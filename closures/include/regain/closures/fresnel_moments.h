@@ -18,14 +18,14 @@ struct FresnelMoments
     Real dip;      ///< mean of mu (1 - mu)^6
 
     /// Of a single facet.
-    static FresnelMoments at(Real mu)
+    REGAIN_HOST_DEVICE static FresnelMoments at(Real mu)
     {
         const Real x = Real(1) - mu, x2 = x * x, x4 = x2 * x2;
         return {x4 * x, mu * x4 * x2};
     }
 
     /// The cosine of a facet with the same falloff.
-    Real cosine() const
+    REGAIN_HOST_DEVICE Real cosine() const
     {
         return Real(1) - detail::pow(detail::saturate(falloff), detail::constant<Real>(0.2));
     }

@@ -37,7 +37,7 @@ struct IdentityGain
 {
     static constexpr bool reciprocal = true;
 
-    Color3<Real> at(const Vec3<Real>&) const { return Color3<Real>(Real(1)); }
+    REGAIN_HOST_DEVICE Color3<Real> at(const Vec3<Real>&) const { return Color3<Real>(Real(1)); }
 };
 
 namespace detail {
@@ -55,8 +55,8 @@ template <class Gain, class Real, class = void>
 class PairGain
 {
 public:
-    PairGain(const Gain& gain, const Vec3<Real>& wo) : _gain(gain), _wo(wo) {}
-    Color3<Real> pair(const Vec3<Real>& wi) const { return _gain.pair(_wo, wi); }
+    REGAIN_HOST_DEVICE PairGain(const Gain& gain, const Vec3<Real>& wo) : _gain(gain), _wo(wo) {}
+    REGAIN_HOST_DEVICE Color3<Real> pair(const Vec3<Real>& wi) const { return _gain.pair(_wo, wi); }
 
 private:
     Gain _gain;
@@ -72,7 +72,7 @@ public:
 struct NoPairGain
 {
     template <class Gain, class Direction>
-    NoPairGain(const Gain&, const Direction&)
+    REGAIN_HOST_DEVICE NoPairGain(const Gain&, const Direction&)
     {}
 };
 
@@ -88,19 +88,19 @@ struct GainIsReciprocal<Gain, std::void_t<decltype(Gain::reciprocal)>>
 template <class Gain, class = void>
 struct GainPreservesEnergy
 {
-    static bool of(const Gain&) { return false; }
+    REGAIN_HOST_DEVICE static bool of(const Gain&) { return false; }
 };
 template <class Gain>
 struct GainPreservesEnergy<
     Gain, std::enable_if_t<std::is_same_v<decltype(Gain::energy_preserving), const bool>>>
 {
-    static bool of(const Gain&) { return Gain::energy_preserving; }
+    REGAIN_HOST_DEVICE static bool of(const Gain&) { return Gain::energy_preserving; }
 };
 template <class Gain>
 struct GainPreservesEnergy<Gain,
                            std::void_t<decltype(std::declval<const Gain&>().energy_preserving())>>
 {
-    static bool of(const Gain& gain) { return gain.energy_preserving(); }
+    REGAIN_HOST_DEVICE static bool of(const Gain& gain) { return gain.energy_preserving(); }
 };
 
 }  // namespace detail

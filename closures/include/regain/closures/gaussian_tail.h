@@ -24,7 +24,7 @@ constexpr double gaussian_tail_begin = sizeof(ScalarOf<Real>) == 4 ? 2 : 3;
 
 /// erfcx_deficit(x) for x >= gaussian_tail_begin.
 template <class Real>
-Real erfcx_deficit_far(const Real& x)
+REGAIN_HOST_DEVICE Real erfcx_deficit_far(const Real& x)
 {
     // sqrt(pi) x erfcx(x) = 1 / (1 + w / v),  v = 1 + 2w / (1 + 3w / (1 + ...)). The tail that is
     // cut off is replaced by that of a fraction with equal terms. v = p / q.
@@ -41,7 +41,7 @@ Real erfcx_deficit_far(const Real& x)
 }
 
 template <class Real>
-Real erfcx_deficit(const Real& x)
+REGAIN_HOST_DEVICE Real erfcx_deficit(const Real& x)
 {
     const MaskOf<Real> far = x >= constant<Real>(gaussian_tail_begin<Real>);
     if (all<Real>(far)) return erfcx_deficit_far(x);
@@ -52,7 +52,7 @@ Real erfcx_deficit(const Real& x)
 }
 
 template <class Real>
-Real ierfc(const Real& x)
+REGAIN_HOST_DEVICE Real ierfc(const Real& x)
 {
     const Real gauss = constant<Real>(0.564189583547756286948) * detail::exp(-x * x);
     const MaskOf<Real> far = x >= constant<Real>(gaussian_tail_begin<Real>);

@@ -45,32 +45,33 @@ public:
 
     /// Widths along x and y in [0, 1]; outside they are clamped, NaN becomes 1. One axis narrower
     /// than delta_alpha is widened to it unless both are.
-    explicit GGX(Real alpha_x, Real alpha_y, NormalSampling sampling = NormalSampling::bounded)
+    REGAIN_HOST_DEVICE explicit GGX(Real alpha_x, Real alpha_y,
+                                    NormalSampling sampling = NormalSampling::bounded)
         : Widths(alpha_x, alpha_y), _sampling(sampling)
     {}
-    explicit GGX(Real alpha) : GGX(alpha, alpha) {}
+    REGAIN_HOST_DEVICE explicit GGX(Real alpha) : GGX(alpha, alpha) {}
 
     /// Of slopes: see anisotropy.h.
-    Real tail_length() const { return Real(1); }
+    REGAIN_HOST_DEVICE Real tail_length() const { return Real(1); }
 
     /// D of the normal m along h, which need not be unit: length2 = h.h. Per steradian.
-    Real D(const Vec3<Real>& h, Real length2) const
+    REGAIN_HOST_DEVICE Real D(const Vec3<Real>& h, Real length2) const
     {
         const Real x = h.x * _inv_alpha_x, y = h.y * _inv_alpha_y;
         // The quotient first: squaring the lengths one by one would underflow at grazing angles.
         const Real r = length2 / (x * x + y * y + h.z * h.z);
         return _normalisation * r * r;
     }
-    Real D(const Vec3<Real>& m) const { return D(m, Real(1)); }
+    REGAIN_HOST_DEVICE Real D(const Vec3<Real>& m) const { return D(m, Real(1)); }
 
     /// Projected area of the visible microsurface, sigma(w) above; w.z may have either sign.
-    Real projected_area(const Vec3<Real>& w) const
+    REGAIN_HOST_DEVICE Real projected_area(const Vec3<Real>& w) const
     {
         return projected_area(w, stretched_length(w));
     }
 
     /// Lambda(w) for w.z > 0.
-    Real lambda(const Vec3<Real>& w) const
+    REGAIN_HOST_DEVICE Real lambda(const Vec3<Real>& w) const
     {
         // (t / z - 1) / 2 loses all digits at small slopes; its conjugate does not.
         const Real x = _alpha_x * w.x, y = _alpha_y * w.y;
@@ -81,7 +82,7 @@ public:
     class Visible
     {
     public:
-        Visible(const GGX& ggx, const Vec3<Real>& wo, NormalSampling sampling)
+        REGAIN_HOST_DEVICE Visible(const GGX& ggx, const Vec3<Real>& wo, NormalSampling sampling)
             : _alpha_x(ggx._alpha_x), _alpha_y(ggx._alpha_y)
         {
             const Vec3<Real> v(_alpha_x * wo.x, _alpha_y * wo.y, wo.z);
@@ -107,13 +108,13 @@ public:
         }
 
         /// sigma(wo).
-        Real projected_area() const { return _projected_area; }
+        REGAIN_HOST_DEVICE Real projected_area() const { return _projected_area; }
 
         /// Factor that turns D(m) into the density of the reflected direction, per steradian.
-        Real reflected_density() const { return _reflected_density; }
+        REGAIN_HOST_DEVICE Real reflected_density() const { return _reflected_density; }
 
         /// A visible normal for u in [0, 1)^3, of which x and y are read; unit, z >= 0.
-        Vec3<Real> sample(const Vec3<Real>& u) const
+        REGAIN_HOST_DEVICE Vec3<Real> sample(const Vec3<Real>& u) const
         {
             const Real phi = detail::constant<Real>(6.28318530717958647692) * detail::saturate(u.x);
             // v + c, where c = (sin_theta cos phi, sin_theta sin phi, rise - cap) is on the cap,
@@ -137,20 +138,26 @@ public:
     };
 
     /// All visible normals; wo.z may have either sign.
-    Visible visible(const Vec3<Real>& wo) const { return Visible(*this, wo, NormalSampling::full); }
+    REGAIN_HOST_DEVICE Visible visible(const Vec3<Real>& wo) const
+    {
+        return Visible(*this, wo, NormalSampling::full);
+    }
     /// Those a reflection lobe samples, wo.z > 0.
-    Visible reflecting(const Vec3<Real>& wo) const { return Visible(*this, wo, _sampling); }
+    REGAIN_HOST_DEVICE Visible reflecting(const Vec3<Real>& wo) const
+    {
+        return Visible(*this, wo, _sampling);
+    }
 
 private:
     // t is the stretched length of w. Below the horizon the sum cancels; its conjugate does not.
-    Real projected_area(const Vec3<Real>& w, Real t) const
+    REGAIN_HOST_DEVICE Real projected_area(const Vec3<Real>& w, Real t) const
     {
         const Real x = _alpha_x * w.x, y = _alpha_y * w.y;
         const MaskOf<Real> below = w.z < Real(0);
         const Real tangential2 = detail::select(below, x * x + y * y, Real(0));
         return Real(0.5f) * detail::select(below, tangential2 / (t + detail::abs(w.z)), w.z + t);
     }
-    Real stretched_length(const Vec3<Real>& w) const
+    REGAIN_HOST_DEVICE Real stretched_length(const Vec3<Real>& w) const
     {
         const Real x = _alpha_x * w.x, y = _alpha_y * w.y;
         return detail::sqrt(x * x + y * y + w.z * w.z);

@@ -27,11 +27,11 @@ struct GridView
     int size[Axes] = {};
     float offset = 0, scale = 1.0f / 65535;
 
-    explicit operator bool() const { return data != nullptr; }
+    REGAIN_HOST_DEVICE explicit operator bool() const { return data != nullptr; }
 
     /// Value at coordinates that are limited to [0, 1], a NaN to 0; the table is not empty.
     template <class Real>
-    Real at(const Real (&x)[Axes]) const
+    REGAIN_HOST_DEVICE Real at(const Real (&x)[Axes]) const
     {
         using Number = NumberTraits<Real>;
         IndexOf<Real> low[Axes];
@@ -50,8 +50,8 @@ struct GridView
 private:
     // Over the axes up to Axis, at the node `outer` of it and all that are slower.
     template <int Axis, class Real>
-    Real blend(const IndexOf<Real> (&low)[Axes], const Real (&fraction)[Axes],
-               const IndexOf<Real>& outer) const
+    REGAIN_HOST_DEVICE Real blend(const IndexOf<Real> (&low)[Axes], const Real (&fraction)[Axes],
+                                  const IndexOf<Real>& outer) const
     {
         Real a, b;
         if constexpr (Axis == 0)

@@ -44,11 +44,12 @@ public:
     static constexpr int random_numbers = 3;
     static constexpr bool has_tail = true;
     static constexpr CosineAxis cosine_axis = CosineAxis::tail;
+    static constexpr WidthAxis width_axis = WidthAxis::gtr;
 
     /// Widths along x and y in [0, 1]; outside they are clamped, NaN becomes 1. One axis narrower
     /// than delta_alpha is widened to it unless both are. gamma in [gtr_min_gamma, gtr_max_gamma];
     /// outside it is clamped, NaN becomes 2.
-    explicit GTR(Real alpha_x, Real alpha_y, Real gamma)
+    REGAIN_HOST_DEVICE explicit GTR(Real alpha_x, Real alpha_y, Real gamma)
         : Widths(alpha_x, alpha_y),
           _gamma(detail::sanitised(gamma, gtr_min_gamma, gtr_max_gamma, 2)),
           _beta(_alpha_x * _alpha_y),
@@ -65,26 +66,24 @@ public:
         _peak = constant(0.318309886183790671538) * phi((_gamma - Real(1)) * _log_beta) /
                 (phi(_log_beta) * _beta);
     }
-    explicit GTR(Real alpha, Real gamma) : GTR(alpha, alpha, gamma) {}
+    REGAIN_HOST_DEVICE explicit GTR(Real alpha, Real gamma) : GTR(alpha, alpha, gamma) {}
 
     /// Tail parameter, and its coordinate along the third axis of tables.
-    Real gamma() const { return _gamma; }
-    Real tail() const { return gtr_tail(_gamma); }
-    /// Coordinate of a width along the second axis.
-    static Real table_width(Real alpha) { return gtr_width(alpha); }
+    REGAIN_HOST_DEVICE Real gamma() const { return _gamma; }
+    REGAIN_HOST_DEVICE Real tail() const { return gtr_tail(_gamma); }
 
     /// D of the normal m along h, which need not be unit: length2 = h.h. Per steradian. At least
     /// 1e-25, so that quotients of it stay finite.
-    Real D(const Vec3<Real>& h, Real length2) const
+    REGAIN_HOST_DEVICE Real D(const Vec3<Real>& h, Real length2) const
     {
         const Real z2 = h.z * h.z, a2 = _beta * this->shrunk_tangential2(h);
         const Real r = length2 / (z2 + a2);
         return detail::max(isotropic_D(z2, a2) * r * r, constant(1e-25));
     }
-    Real D(const Vec3<Real>& m) const { return D(m, Real(1)); }
+    REGAIN_HOST_DEVICE Real D(const Vec3<Real>& m) const { return D(m, Real(1)); }
 
     /// sigma(w), the projected area of the visible microsurface; w.z may have either sign.
-    Real projected_area(const Vec3<Real>& w) const
+    REGAIN_HOST_DEVICE Real projected_area(const Vec3<Real>& w) const
     {
         const Vec3<Real> v = stretched(w);
         if (detail::all<Real>(v.z >= Real(0)))
@@ -93,26 +92,29 @@ public:
     }
 
     /// Lambda(w) for w.z > 0.
-    Real lambda(const Vec3<Real>& w) const { return area_below(stretched(w)) / w.z; }
+    REGAIN_HOST_DEVICE Real lambda(const Vec3<Real>& w) const
+    {
+        return area_below(stretched(w)) / w.z;
+    }
 
     /// The visible normals of one wo.
     class Visible
     {
     public:
-        Visible(const GTR& gtr, const Vec3<Real>& wo)
+        REGAIN_HOST_DEVICE Visible(const GTR& gtr, const Vec3<Real>& wo)
             : _gtr(gtr),
               _v(gtr.stretched(wo)),
               _projected_area(detail::max(gtr.projected_area(wo), constant(1e-30)))
         {}
 
         /// sigma(wo), at least 1e-30.
-        Real projected_area() const { return _projected_area; }
+        REGAIN_HOST_DEVICE Real projected_area() const { return _projected_area; }
 
         /// Factor that turns D(m) into the density of the reflected direction, per steradian.
-        Real reflected_density() const { return Real(0.25f) / _projected_area; }
+        REGAIN_HOST_DEVICE Real reflected_density() const { return Real(0.25f) / _projected_area; }
 
         /// A visible normal for u in [0, 1)^3, of which all are read; unit, z > 0.
-        Vec3<Real> sample(const Vec3<Real>& u) const
+        REGAIN_HOST_DEVICE Vec3<Real> sample(const Vec3<Real>& u) const
         {
             Vec3<Real> numbers(detail::saturate(u.x), detail::saturate(u.y), detail::saturate(u.z));
             RandomStream<Real> stream(numbers);
@@ -142,7 +144,8 @@ public:
 
     private:
         // Unit, of the isotropic surface.
-        Vec3<Real> normal_of_mixture(const Vec3<Real>& u, const Real& order, const Real& seed) const
+        REGAIN_HOST_DEVICE Vec3<Real> normal_of_mixture(const Vec3<Real>& u, const Real& order,
+                                                        const Real& seed) const
         {
             const detail::GtrMixture<Real>& mixture = _gtr._mixture;
             const Real s2 = _v.x * _v.x + _v.y * _v.y;
@@ -171,31 +174,31 @@ public:
     };
 
     /// All visible normals; wo.z may have either sign.
-    Visible visible(const Vec3<Real>& wo) const { return Visible(*this, wo); }
+    REGAIN_HOST_DEVICE Visible visible(const Vec3<Real>& wo) const { return Visible(*this, wo); }
     /// The same: none are left out.
-    Visible reflecting(const Vec3<Real>& wo) const { return Visible(*this, wo); }
+    REGAIN_HOST_DEVICE Visible reflecting(const Vec3<Real>& wo) const { return Visible(*this, wo); }
 
 private:
-    static Real constant(double x) { return detail::constant<Real>(x); }
+    REGAIN_HOST_DEVICE static Real constant(double x) { return detail::constant<Real>(x); }
 
     // x / (e^x - 1).
-    static Real phi(const Real& x)
+    REGAIN_HOST_DEVICE static Real phi(const Real& x)
     {
         const Mask zero = x == Real(0);
         return detail::select(zero, Real(1), x / detail::expm1(detail::select(zero, Real(1), x)));
     }
 
     // w where the surface is isotropic: its products with stretched normals are the same.
-    Vec3<Real> stretched(const Vec3<Real>& w) const
+    REGAIN_HOST_DEVICE Vec3<Real> stretched(const Vec3<Real>& w) const
     {
         return {w.x * _stretch_x, w.y * _stretch_y, w.z};
     }
-    Real area_below(const Vec3<Real>& v) const
+    REGAIN_HOST_DEVICE Real area_below(const Vec3<Real>& v) const
     {
         return _mixture.area_below(detail::abs(v.z), v.x * v.x + v.y * v.y);
     }
     // D of the isotropic surface, along a normal whose square is z2 + a2, z2 being that of its z.
-    Real isotropic_D(const Real& z2, const Real& a2) const
+    REGAIN_HOST_DEVICE Real isotropic_D(const Real& z2, const Real& a2) const
     {
         // beta (1 + rho) / (beta + rho), in [beta, 1].
         return _peak * detail::pow((z2 + a2) / (z2 + a2 * _inv_beta), _gamma);

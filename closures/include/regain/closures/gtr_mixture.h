@@ -59,7 +59,7 @@ public:
     };
 
     /// beta = alpha^2 in (0, 1], its logarithm, gamma in (0, 10].
-    GtrMixture(const Real& beta, const Real& log_beta, const Real& gamma)
+    REGAIN_HOST_DEVICE GtrMixture(const Real& beta, const Real& log_beta, const Real& gamma)
     {
         const Real one(1);
 
@@ -100,8 +100,8 @@ public:
         for (int i = 0; i < _nodes; ++i) _weight[i] *= scale;
     }
     // Copies what there is, which is a small part of the room.
-    GtrMixture(const GtrMixture& other) { *this = other; }
-    GtrMixture& operator=(const GtrMixture& other)
+    REGAIN_HOST_DEVICE GtrMixture(const GtrMixture& other) { *this = other; }
+    REGAIN_HOST_DEVICE GtrMixture& operator=(const GtrMixture& other)
     {
         _nodes = other._nodes;
         _orders = other._orders;
@@ -115,12 +115,12 @@ public:
         return *this;
     }
 
-    int nodes() const { return _nodes; }
+    REGAIN_HOST_DEVICE int nodes() const { return _nodes; }
     /// Largest order of Student laws over all lanes; 0: all are GGX.
-    int orders() const { return _orders; }
+    REGAIN_HOST_DEVICE int orders() const { return _orders; }
 
     /// sigma(-w) of the direction (s, 0, c), s^2 = s2, c >= 0, which need not be unit.
-    Real area_below(const Real& c, const Real& s2) const
+    REGAIN_HOST_DEVICE Real area_below(const Real& c, const Real& s2) const
     {
         Real sum(0);
         for (int i = 0; i < _nodes; ++i) sum += _weight[i] * length_below(i, c, s2);
@@ -128,7 +128,7 @@ public:
     }
 
     /// sigma(w) of the same direction.
-    Real area_above(const Real& c, const Real& s2) const
+    REGAIN_HOST_DEVICE Real area_above(const Real& c, const Real& s2) const
     {
         if (_orders > 0) return c + area_below(c, s2);
         // Of GGX it is (c + q) / 2: nothing cancels, and no node divides.
@@ -138,7 +138,7 @@ public:
     }
 
     /// D of the mixture at a unit normal with squared components z2 and a2 = 1 - z2.
-    Real D(const Real& z2, const Real& a2) const
+    REGAIN_HOST_DEVICE Real D(const Real& z2, const Real& a2) const
     {
         Real sum(0);
         for (int i = 0; i < _nodes; ++i)
@@ -155,12 +155,13 @@ public:
 
     /// A term, with the probability of its share in area = sigma(w), w = (s, 0, c) with c of either
     /// sign. x selects the node, y the order.
-    Term term(const Real& c, const Real& s2, const Real& area, const Real& x, const Real& y) const
+    REGAIN_HOST_DEVICE Term term(const Real& c, const Real& s2, const Real& area, const Real& x,
+                                 const Real& y) const
     {
         const Real above = detail::max(c, Real(0)), height = detail::abs(c);
         const Real target = x * area;
         Real sum(0), xi = _xi[0];
-        Term term{_t[0], {Real(0), constant<Real>(student.cap[0])}};
+        Term term{_t[0], {Real(0), constant<Real>(student().cap[0])}};
         for (int i = 0; i < _nodes; ++i)
         {
             const MaskOf<Real> reached = sum <= target;
@@ -176,7 +177,7 @@ public:
     }
 
 private:
-    void add(const Real& weight, const Real& t, const Real& xi)
+    REGAIN_HOST_DEVICE void add(const Real& weight, const Real& t, const Real& xi)
     {
         _weight[_nodes] = weight;
         _t[_nodes] = t;
@@ -184,8 +185,8 @@ private:
         ++_nodes;
     }
 
-    void add_all(const Real& beta, const Real& log_beta, const Real& a, const Real& delta,
-                 const Real& m)
+    REGAIN_HOST_DEVICE void add_all(const Real& beta, const Real& log_beta, const Real& a,
+                                    const Real& delta, const Real& m)
     {
         const Real one(1), first = constant<Real>(-reach);
         // Laws of a higher order are narrower, and need more nodes near t = beta.
@@ -226,8 +227,8 @@ private:
     // One node for all those at log s = first, first - h, first - 2h ... of the weight
     // s^a / ((1 + s) (1 + beta s)), where the last two factors are a series in s. Mirrored: s
     // stands for 1 / (beta s).
-    void add_tail(const Real& beta, const Real& first, const Real& a, const Real& h,
-                  const Real& scale, bool mirrored)
+    REGAIN_HOST_DEVICE void add_tail(const Real& beta, const Real& first, const Real& a,
+                                     const Real& h, const Real& scale, bool mirrored)
     {
         const Real one(1), s = detail::exp(first), c1 = one + beta, c2 = one + beta * c1;
         const Real open = -detail::expm1(-a * h), open1 = open / -detail::expm1(-(a + one) * h),
@@ -244,7 +245,7 @@ private:
     }
 
     // Sum of the weights of the orders at a node.
-    Real orders_mass(int i) const
+    REGAIN_HOST_DEVICE Real orders_mass(int i) const
     {
         Real sum = _order[_orders];
         for (int j = _orders - 1; j >= 0; --j) sum = sum * _xi[i] + _order[j];
@@ -253,7 +254,7 @@ private:
 
     // Twice the area from below of all orders at a node: the sum of order_j xi^j q R_j(z), where
     // R_j = R_m + b_(j+1) z^(j+1) + ... + b_m z^m.
-    Real length_below(int i, const Real& c, const Real& s2) const
+    REGAIN_HOST_DEVICE Real length_below(int i, const Real& c, const Real& s2) const
     {
         if (_orders == 0)
         {
@@ -265,7 +266,7 @@ private:
         for (int k = 1; k <= _orders; ++k)
         {
             power *= view.z;
-            sum += constant<Real>(student.b[k]) * power * mass;
+            sum += constant<Real>(student().b[k]) * power * mass;
             x *= _xi[i];
             mass += _order[k] * x;
         }

@@ -217,7 +217,7 @@ Real presence_of([[maybe_unused]] const Material& material)
 
 /// Index on the -z side over index on the +z side; 1 where one medium is on both.
 template <class Closure>
-typename Closure::Real relative_index(const Closure& closure)
+REGAIN_HOST_DEVICE typename Closure::Real relative_index(const Closure& closure)
 {
     if constexpr (detail::HasEta<Closure>::value && !detail::IsThinWalled<Closure>::value)
         return closure.eta();
@@ -232,7 +232,7 @@ typename Closure::Real relative_index(const Closure& closure)
 /// The two sides of the surface are told apart: the closure answers for wo of either sign, and is
 /// not to be turned towards the viewer.
 template <class Closure>
-bool is_interface(const Closure& closure)
+REGAIN_HOST_DEVICE bool is_interface(const Closure& closure)
 {
     return closure.traits().transmissive || relative_index(closure) != typename Closure::Real(1);
 }
@@ -240,7 +240,8 @@ bool is_interface(const Closure& closure)
 /// (n_o / n_i)^2, n_o being the index on the side of wo and n_i on that of wi: what turns a
 /// transmitted energy into a transmitted radiance. 1 for a wi on the side of wo.
 template <class Closure, class Real = typename Closure::Real>
-Real radiance_factor(const Closure& closure, const Vec3<Real>& wo, const Vec3<Real>& wi)
+REGAIN_HOST_DEVICE Real radiance_factor(const Closure& closure, const Vec3<Real>& wo,
+                                        const Vec3<Real>& wi)
 {
     if ((wo.z < 0) == (wi.z < 0)) return Real(1);
     const Real eta = relative_index(closure);
@@ -250,7 +251,7 @@ Real radiance_factor(const Closure& closure, const Vec3<Real>& wo, const Vec3<Re
 
 /// The wider of the two microfacet widths; 1 for a closure without microfacets.
 template <class Closure>
-typename Closure::Real widest_alpha(const Closure& closure)
+REGAIN_HOST_DEVICE typename Closure::Real widest_alpha(const Closure& closure)
 {
     if constexpr (detail::HasDistribution<Closure>::value)
         return detail::max(closure.distribution().alpha_x(), closure.distribution().alpha_y());
@@ -264,7 +265,7 @@ typename Closure::Real widest_alpha(const Closure& closure)
 
 /// What light path expressions call diffuse.
 template <class Closure>
-constexpr bool is_diffuse(const Closure& closure)
+REGAIN_HOST_DEVICE constexpr bool is_diffuse(const Closure& closure)
 {
     if constexpr (detail::HasLobe<Closure>::value)
         return is_diffuse(closure.lobe());
@@ -274,7 +275,7 @@ constexpr bool is_diffuse(const Closure& closure)
 
 /// Light goes straight on, as if there were no surface.
 template <class Closure>
-constexpr bool passes_straight(const Closure& closure)
+REGAIN_HOST_DEVICE constexpr bool passes_straight(const Closure& closure)
 {
     if constexpr (detail::HasLobe<Closure>::value)
         return passes_straight(closure.lobe());
@@ -285,7 +286,7 @@ constexpr bool passes_straight(const Closure& closure)
 /// All that it scatters has no density: a mirror, smooth glass. A closure for which only
 /// traits().delta holds may return both kinds of direction.
 template <class Closure>
-bool is_delta(const Closure& closure)
+REGAIN_HOST_DEVICE bool is_delta(const Closure& closure)
 {
     if constexpr (detail::PassesStraight<Closure>::value)
         return true;
@@ -306,20 +307,20 @@ constexpr double least_pdf = 1e-12;
 /// The closure for a path that carries importance: what eval and sample say is then what the eye
 /// sees from wi. A gain that is not reciprocal is taken at the other end; all else is reciprocal.
 template <class Closure>
-const Closure& for_light_path(const Closure& closure)
+REGAIN_HOST_DEVICE const Closure& for_light_path(const Closure& closure)
 {
     return closure;
 }
 template <class First, class Second>
-auto for_light_path(const Sum<First, Second>& closure);
+REGAIN_HOST_DEVICE auto for_light_path(const Sum<First, Second>& closure);
 template <class Lobe, class Gain>
-auto for_light_path(const Compensated<Lobe, Gain>& closure)
+REGAIN_HOST_DEVICE auto for_light_path(const Compensated<Lobe, Gain>& closure)
 {
     const auto lobe = for_light_path(closure.lobe());
     return reversed(compensated(lobe, closure.gain()));
 }
 template <class First, class Second>
-auto for_light_path(const Sum<First, Second>& closure)
+REGAIN_HOST_DEVICE auto for_light_path(const Sum<First, Second>& closure)
 {
     return sum(for_light_path(closure.first()), for_light_path(closure.second()));
 }

@@ -41,7 +41,7 @@ struct StudentSeries
     double cap[student_orders] = {};   // int cos^(2j+1) over (-pi/2, pi/2)
 };
 
-constexpr StudentSeries student_series()
+REGAIN_HOST_DEVICE constexpr StudentSeries student_series()
 {
     StudentSeries s;
     s.T[0][0] = 1;
@@ -64,7 +64,11 @@ constexpr StudentSeries student_series()
     return s;
 }
 
-inline constexpr StudentSeries student = student_series();
+REGAIN_HOST_DEVICE inline const StudentSeries& student()
+{
+    static constexpr StudentSeries series = student_series();
+    return series;
+}
 
 /// A direction (s, 0, c), c >= 0, from where the Student laws of square width t are a hemisphere.
 template <class Real>
@@ -72,7 +76,7 @@ struct StudentView
 {
     Real q, e, d, z;  // as above, and d = 1 - e
 
-    StudentView(const Real& t, const Real& c, const Real& s2)
+    REGAIN_HOST_DEVICE StudentView(const Real& t, const Real& c, const Real& s2)
     {
         const Real tangential2 = t * s2;
         q = detail::sqrt(c * c + tangential2);
@@ -82,16 +86,16 @@ struct StudentView
     }
 
     /// R_j.
-    Real remainder(int j) const
+    REGAIN_HOST_DEVICE Real remainder(int j) const
     {
-        Real T = constant<Real>(student.T[j][j > 0 ? j - 1 : 0]), power = d;
-        for (int k = j - 2; k >= 0; --k) T = T * e + constant<Real>(student.T[j][k]);
+        Real T = constant<Real>(student().T[j][j > 0 ? j - 1 : 0]), power = d;
+        for (int k = j - 2; k >= 0; --k) T = T * e + constant<Real>(student().T[j][k]);
         for (int k = 0; k < j; ++k) power *= d;
         return power * T;
     }
 };
 
-/// Which order of a sum of Student laws of one width: j, and student.cap[j].
+/// Which order of a sum of Student laws of one width: j, and cap[j] of student().
 template <class Real>
 struct StudentOrder
 {
@@ -101,8 +105,9 @@ struct StudentOrder
 /// The order j <= last, with the probability of its share in the area that the direction sees;
 /// weight[j] xi^j is its share in the sum, above = c for directions seen from above, else 0.
 template <class Real>
-StudentOrder<Real> student_order(const StudentView<Real>& view, const Real& above,
-                                 const Real* weight, const Real& xi, int last, const Real& u)
+REGAIN_HOST_DEVICE StudentOrder<Real> student_order(const StudentView<Real>& view,
+                                                    const Real& above, const Real* weight,
+                                                    const Real& xi, int last, const Real& u)
 {
     Real area[student_orders], power[student_orders];
     power[0] = Real(1);
@@ -112,7 +117,7 @@ StudentOrder<Real> student_order(const StudentView<Real>& view, const Real& abov
     for (int j = last; j >= 0; --j)
     {
         area[j] = above + Real(0.5f) * view.q * R;
-        R += constant<Real>(student.b[j]) * power[j];
+        R += constant<Real>(student().b[j]) * power[j];
     }
     Real total(0), xi_power(1);
     for (int j = 0; j <= last; ++j)
@@ -121,14 +126,14 @@ StudentOrder<Real> student_order(const StudentView<Real>& view, const Real& abov
         total += area[j];
         xi_power *= xi;
     }
-    StudentOrder<Real> order{Real(0), constant<Real>(student.cap[0])};
+    StudentOrder<Real> order{Real(0), constant<Real>(student().cap[0])};
     Real sum(0);
     for (int j = 0; j <= last; ++j)
     {
         // Rounding must not select an order whose weight is 0.
         const MaskOf<Real> reached = both<Real>(sum <= u * total, weight[j] > Real(0));
         order.j = select(reached, constant<Real>(j), order.j);
-        order.cap = select(reached, constant<Real>(student.cap[j]), order.cap);
+        order.cap = select(reached, constant<Real>(student().cap[j]), order.cap);
         sum += area[j];
     }
     return order;
@@ -136,7 +141,7 @@ StudentOrder<Real> student_order(const StudentView<Real>& view, const Real& abov
 
 /// x^(1 / k) for x in [0, 1], k > 0.
 template <class Real>
-Real root(const Real& x, const Real& k)
+REGAIN_HOST_DEVICE Real root(const Real& x, const Real& k)
 {
     return detail::exp(detail::log(detail::max(x, constant<Real>(1e-30))) / k);
 }
@@ -147,8 +152,9 @@ Real root(const Real& x, const Real& k)
 /// thirds; after 64 failures (a chance of 1e-12) the last is taken as it is, a normal like any
 /// other.
 template <class Real>
-Vec3<Real> student_visible(const StudentOrder<Real>& order, const Real& v_x, const Real& v_z,
-                           const Vec2<Real>& u, RandomStream<Real>& stream)
+REGAIN_HOST_DEVICE Vec3<Real> student_visible(const StudentOrder<Real>& order, const Real& v_x,
+                                              const Real& v_z, const Vec2<Real>& u,
+                                              RandomStream<Real>& stream)
 {
     const Real j = order.j, cap = order.cap;
     const Real zero(0), one(1), tiny = constant<Real>(1e-30);

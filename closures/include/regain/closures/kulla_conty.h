@@ -59,7 +59,8 @@ constexpr std::optional<KullaContyForm> kulla_conty_form_named(std::string_view 
 
 /// F_ms of a form for F_ss and E_avg in [0, 1], per channel.
 template <class Real>
-Color3<Real> kulla_conty_tint(KullaContyForm form, const Color3<Real>& F_ss, Real E_avg)
+REGAIN_HOST_DEVICE Color3<Real> kulla_conty_tint(KullaContyForm form, const Color3<Real>& F_ss,
+                                                 Real E_avg)
 {
     return detail::per_channel(F_ss, [&](Real F) {
         const Real numerator = form == KullaContyForm::printed ? F : F * F;
@@ -83,7 +84,8 @@ public:
 
     /// White, so F_ms = 1. Of `tables` it needs E_ss of this distribution.
     template <class Distribution>
-    MissingEnergyLobe(const Distribution& distribution, const MicrofacetTables& tables)
+    REGAIN_HOST_DEVICE MissingEnergyLobe(const Distribution& distribution,
+                                         const MicrofacetTables& tables)
         : _tables(tables),
           _axes(distribution),
           _black(distribution.is_delta()),
@@ -96,21 +98,21 @@ public:
             });
     }
 
-    bool bound() const { return _bound; }
-    const MissingEnergy<Real>& missing() const { return _missing; }
+    REGAIN_HOST_DEVICE bool bound() const { return _bound; }
+    REGAIN_HOST_DEVICE const MissingEnergy<Real>& missing() const { return _missing; }
 
     /// F_ms, in [0, 1] per channel.
-    const Color& tint() const { return _tint; }
-    void set_tint(const Color& tint) { _tint = tint; }
+    REGAIN_HOST_DEVICE const Color& tint() const { return _tint; }
+    REGAIN_HOST_DEVICE void set_tint(const Color& tint) { _tint = tint; }
 
     /// 1 - E_ss of a unit w, w.z in [0, 1].
-    Real loss(const Vec3<Real>& w) const
+    REGAIN_HOST_DEVICE Real loss(const Vec3<Real>& w) const
     {
         if (!_bound) return Real(0);
         return detail::select(_black, Real(0), Real(1) - _axes.albedo(_tables, w));
     }
 
-    Traits traits() const
+    REGAIN_HOST_DEVICE Traits traits() const
     {
         Traits t;
         t.reciprocal = true;
@@ -123,7 +125,7 @@ public:
     class Prepared
     {
     public:
-        Prepared(const MissingEnergyLobe& lobe, const Vec3<Real>& wo)
+        REGAIN_HOST_DEVICE Prepared(const MissingEnergyLobe& lobe, const Vec3<Real>& wo)
             : _lobe(lobe),
               _valid(detail::is_above_horizon(wo)),
               _wo(detail::select(_valid, wo, Vec3<Real>(Real(0), Real(0), Real(1)))),
@@ -136,23 +138,23 @@ public:
             _weight = detail::select(_valid, _weight, Color(Real(0)));
         }
 
-        const Vec3<Real>& wo() const { return _wo; }
-        void scale_by(const Color& weight) { _weight *= weight; }
+        REGAIN_HOST_DEVICE const Vec3<Real>& wo() const { return _wo; }
+        REGAIN_HOST_DEVICE void scale_by(const Color& weight) { _weight *= weight; }
 
         /// 1 - E_ss(wo).
-        Real loss() const { return _loss; }
+        REGAIN_HOST_DEVICE Real loss() const { return _loss; }
 
-        Color eval(const Vec3<Real>& wi) const
+        REGAIN_HOST_DEVICE Color eval(const Vec3<Real>& wi) const
         {
             const Terms t = terms(wi);
             return detail::select(t.valid, _weight * value(t), Color(Real(0)));
         }
 
-        Sample<Real> sample(const Vec2<Real>& u) const
+        REGAIN_HOST_DEVICE Sample<Real> sample(const Vec2<Real>& u) const
         {
             return sample(detail::two_numbers<MissingEnergyLobe>(u));
         }
-        Sample<Real> sample(const Vec3<Real>& u) const
+        REGAIN_HOST_DEVICE Sample<Real> sample(const Vec3<Real>& u) const
         {
             const Real mu = _lobe._missing.sample(detail::saturate(u.x));
             const Vec3<Real> wi = at_some_azimuth(mu, detail::saturate(u.y));
@@ -167,13 +169,13 @@ public:
             return s;
         }
 
-        Real pdf(const Vec3<Real>& wi) const
+        REGAIN_HOST_DEVICE Real pdf(const Vec3<Real>& wi) const
         {
             const Terms t = terms(wi);
             return detail::select(t.valid, density(t), Real(0));
         }
 
-        Albedo<Real> albedo() const { return {_weight * _loss, Color(Real(0))}; }
+        REGAIN_HOST_DEVICE Albedo<Real> albedo() const { return {_weight * _loss, Color(Real(0))}; }
 
     private:
         struct Terms
@@ -181,7 +183,7 @@ public:
             Mask valid;
             Vec3<Real> wi;
         };
-        Terms terms(const Vec3<Real>& wi) const
+        REGAIN_HOST_DEVICE Terms terms(const Vec3<Real>& wi) const
         {
             Terms t;
             t.valid = detail::both<Real>(_valid, detail::is_above_horizon(wi));
@@ -190,16 +192,19 @@ public:
             return t;
         }
         // f cos theta_i of a white lobe.
-        Real value(const Terms& t) const { return _scale * _lobe.loss(t.wi) * t.wi.z; }
+        REGAIN_HOST_DEVICE Real value(const Terms& t) const
+        {
+            return _scale * _lobe.loss(t.wi) * t.wi.z;
+        }
         // Per steradian. It takes a logarithm, so eval is spared it.
-        Real density(const Terms& t) const
+        REGAIN_HOST_DEVICE Real density(const Terms& t) const
         {
             const Real even =
                 _lobe._missing.density(t.wi.z) * detail::constant<Real>(0.159154943091895335769);
             if (_lobe._axes.isotropic()) return even;
             return even * _lobe._axes.azimuths().relative_density(t.wi);
         }
-        Vec3<Real> at_some_azimuth(const Real& mu, const Real& u) const
+        REGAIN_HOST_DEVICE Vec3<Real> at_some_azimuth(const Real& mu, const Real& u) const
         {
             if (!_lobe._axes.isotropic()) return _lobe._axes.azimuths().sample(mu, u);
             const Real sine = detail::sqrt((Real(1) - mu) * (Real(1) + mu));
@@ -214,7 +219,7 @@ public:
         Color _weight;
     };
 
-    Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
+    REGAIN_HOST_DEVICE Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
 
 private:
     MicrofacetTables _tables;
@@ -236,15 +241,16 @@ public:
 
     /// strength in [0, 1] scales the added lobe; clamped, NaN becomes 0. Without a table of E_ss
     /// there is no added lobe.
-    KullaConty(const Lobe& lobe, KullaContyForm form, const MicrofacetTables& tables,
-               Real strength = Real(1))
+    REGAIN_HOST_DEVICE KullaConty(const Lobe& lobe, KullaContyForm form,
+                                  const MicrofacetTables& tables, Real strength = Real(1))
         : ReflectionWithAddedLobe<Lobe, MissingEnergyLobe<Real>>(
               lobe, added(lobe, form, tables, detail::saturate(strength)), strength)
     {}
 
 private:
-    static MissingEnergyLobe<Real> added(const Lobe& lobe, KullaContyForm form,
-                                         const MicrofacetTables& tables, Real strength)
+    REGAIN_HOST_DEVICE static MissingEnergyLobe<Real> added(const Lobe& lobe, KullaContyForm form,
+                                                            const MicrofacetTables& tables,
+                                                            Real strength)
     {
         MissingEnergyLobe<Real> added(lobe.distribution(), tables);
         const Real E_avg = Real(1) - added.missing().average();
@@ -256,8 +262,9 @@ private:
 /// The lobe compensated by Kulla and Conty's added lobe, at strength s in [0, 1]. The tables serve
 /// the added lobe and, unless the lobe has its own, its albedo.
 template <class Lobe>
-KullaConty<Lobe> kulla_conty(Lobe lobe, KullaContyForm form, const MicrofacetTables& tables,
-                             typename Lobe::Real strength = typename Lobe::Real(1))
+REGAIN_HOST_DEVICE KullaConty<Lobe> kulla_conty(
+    Lobe lobe, KullaContyForm form, const MicrofacetTables& tables,
+    typename Lobe::Real strength = typename Lobe::Real(1))
 {
     if (!lobe.tables().has_albedo()) lobe.set_tables(tables);
     return {lobe, form, tables, strength};

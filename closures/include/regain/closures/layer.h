@@ -36,12 +36,12 @@ public:
     static constexpr bool reciprocal = true;
 
     /// In [0, 1e6] per channel, clamped; NaN becomes 0.
-    explicit ConstantGain(const Color& weight)
+    REGAIN_HOST_DEVICE explicit ConstantGain(const Color& weight)
         : _weight(
               detail::per_channel(weight, [](Real v) { return detail::sanitised(v, 0, 1e6, 0); }))
     {}
 
-    Color at(const Vec3<Real>&) const { return _weight; }
+    REGAIN_HOST_DEVICE Color at(const Vec3<Real>&) const { return _weight; }
 
 private:
     Color _weight;
@@ -55,10 +55,10 @@ public:
     using Real = typename Top::Real;
     using Color = Color3<Real>;
 
-    explicit UnderLayer(const Top& top) : _top(top) {}
+    REGAIN_HOST_DEVICE explicit UnderLayer(const Top& top) : _top(top) {}
 
     /// 1 - E_top(wo), not negative.
-    Color at(const Vec3<Real>& wo) const
+    REGAIN_HOST_DEVICE Color at(const Vec3<Real>& wo) const
     {
         const Albedo<Real> a = _top.prepare(wo).albedo();
         return detail::per_channel(a.reflect + a.transmit,
@@ -71,21 +71,21 @@ private:
 
 /// A closure with a weight.
 template <class Closure>
-Compensated<Closure, ConstantGain<typename Closure::Real>> multiply(
+REGAIN_HOST_DEVICE Compensated<Closure, ConstantGain<typename Closure::Real>> multiply(
     const Closure& closure, const Color3<typename Closure::Real>& weight)
 {
     return {closure, ConstantGain<typename Closure::Real>(weight)};
 }
 template <class Closure>
-auto multiply(const Closure& closure, typename Closure::Real weight)
+REGAIN_HOST_DEVICE auto multiply(const Closure& closure, typename Closure::Real weight)
 {
     return multiply(closure, Color3<typename Closure::Real>(weight));
 }
 
 /// `amount` of the foreground in [0, 1], clamped; NaN becomes 0.
 template <class Foreground, class Background>
-auto mix(const Foreground& foreground, const Background& background,
-         typename Foreground::Real amount)
+REGAIN_HOST_DEVICE auto mix(const Foreground& foreground, const Background& background,
+                            typename Foreground::Real amount)
 {
     using Real = typename Foreground::Real;
     const Real m = detail::saturate(amount);
@@ -93,7 +93,8 @@ auto mix(const Foreground& foreground, const Background& background,
 }
 
 template <class Top, class Base>
-Sum<Top, Compensated<Base, UnderLayer<Top>>> layer(const Top& top, const Base& base)
+REGAIN_HOST_DEVICE Sum<Top, Compensated<Base, UnderLayer<Top>>> layer(const Top& top,
+                                                                      const Base& base)
 {
     return {top, {base, UnderLayer<Top>(top)}};
 }

@@ -71,7 +71,8 @@ public:
 
     /// `lobe` is a MicrofacetReflection; strength is clamped to [0, 1], NaN becomes 0.
     template <class Lobe>
-    MethodGain(const Lobe& lobe, Method method, const MicrofacetTables& tables, Real strength)
+    REGAIN_HOST_DEVICE MethodGain(const Lobe& lobe, Method method, const MicrofacetTables& tables,
+                                  Real strength)
         : _tables(tables), _axes(lobe.distribution())
     {
         const bool needs_average = method == Method::turquin_eq12 || method == Method::series;
@@ -90,7 +91,7 @@ public:
                      detail::all<Real>(distribution.alpha_x() == distribution.alpha_y());
     }
 
-    Color at(const Vec3<Real>& wo) const
+    REGAIN_HOST_DEVICE Color at(const Vec3<Real>& wo) const
     {
         if (!_bound) return Color(Real(1));
         const Real E = _axes.albedo(_tables, {wo.x, wo.y, detail::saturate(wo.z)});
@@ -99,11 +100,11 @@ public:
 
     /// Every method has F_ms = 1 where F = 1, so at full strength the albedo is 1 there; of an
     /// anisotropic lobe it is not promised.
-    bool energy_preserving() const { return _bound && _preserves; }
+    REGAIN_HOST_DEVICE bool energy_preserving() const { return _bound && _preserves; }
 
 private:
     template <class Fresnel>
-    Color F_ms(Method method, const Fresnel& fresnel, Real E_avg) const
+    REGAIN_HOST_DEVICE Color F_ms(Method method, const Fresnel& fresnel, Real E_avg) const
     {
         const Color one(Real(1));
         switch (method)
@@ -130,11 +131,11 @@ private:
     }
 
     // 1 - F_ss (1 - E_avg), which does not cancel where F_ss is 1.
-    static Real kept(Real F_ss, Real E_avg)
+    REGAIN_HOST_DEVICE static Real kept(Real F_ss, Real E_avg)
     {
         return detail::max(Real(1) - F_ss + F_ss * E_avg, least_albedo());
     }
-    static Real least_albedo() { return detail::constant<Real>(1e-12); }
+    REGAIN_HOST_DEVICE static Real least_albedo() { return detail::constant<Real>(1e-12); }
 
     MicrofacetTables _tables;
     DirectionAxes<Real> _axes;

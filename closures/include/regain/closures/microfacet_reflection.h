@@ -38,18 +38,19 @@ public:
     static constexpr int random_numbers = Distribution::random_numbers;
 
     /// `tables` make albedo() a look-up; without them it integrates, which is slower.
-    MicrofacetReflection(const Distribution& distribution, const Fresnel& fresnel,
-                         const MicrofacetTables& tables = {})
+    REGAIN_HOST_DEVICE MicrofacetReflection(const Distribution& distribution,
+                                            const Fresnel& fresnel,
+                                            const MicrofacetTables& tables = {})
         : _distribution(distribution), _fresnel(fresnel), _tables(tables)
     {}
 
-    const Distribution& distribution() const { return _distribution; }
-    const Fresnel& fresnel() const { return _fresnel; }
+    REGAIN_HOST_DEVICE const Distribution& distribution() const { return _distribution; }
+    REGAIN_HOST_DEVICE const Fresnel& fresnel() const { return _fresnel; }
 
-    const MicrofacetTables& tables() const { return _tables; }
-    void set_tables(const MicrofacetTables& tables) { _tables = tables; }
+    REGAIN_HOST_DEVICE const MicrofacetTables& tables() const { return _tables; }
+    REGAIN_HOST_DEVICE void set_tables(const MicrofacetTables& tables) { _tables = tables; }
 
-    Traits traits() const
+    REGAIN_HOST_DEVICE Traits traits() const
     {
         Traits t;
         t.reciprocal = true;
@@ -63,7 +64,7 @@ public:
     class Prepared
     {
     public:
-        Prepared(const MicrofacetReflection& lobe, const Vec3<Real>& wo)
+        REGAIN_HOST_DEVICE Prepared(const MicrofacetReflection& lobe, const Vec3<Real>& wo)
             : _lobe(lobe),
               _delta(lobe._distribution.is_delta()),
               _valid(detail::is_above_horizon(wo)),
@@ -74,25 +75,25 @@ public:
               _weight(detail::select(_valid, Real(1), Real(0)))
         {}
 
-        const Vec3<Real>& wo() const { return _wo; }
+        REGAIN_HOST_DEVICE const Vec3<Real>& wo() const { return _wo; }
 
         /// Multiplies the closure weight: all that eval, sample and albedo return, and no direction
         /// or pdf.
-        void scale_by(const Color& weight) { _weight *= weight; }
+        REGAIN_HOST_DEVICE void scale_by(const Color& weight) { _weight *= weight; }
 
-        Color eval(const Vec3<Real>& wi) const
+        REGAIN_HOST_DEVICE Color eval(const Vec3<Real>& wi) const
         {
             const Terms t = terms(wi);
             return detail::select(t.valid, _lobe._fresnel.at(t.cos_facet) * _weight * t.value,
                                   Color(Real(0)));
         }
 
-        Sample<Real> sample(const Vec2<Real>& u) const
+        REGAIN_HOST_DEVICE Sample<Real> sample(const Vec2<Real>& u) const
         {
             return sample(detail::two_numbers<MicrofacetReflection>(u));
         }
         /// u in [0, 1)^3, of which the first `random_numbers` are read.
-        Sample<Real> sample(const Vec3<Real>& u) const
+        REGAIN_HOST_DEVICE Sample<Real> sample(const Vec3<Real>& u) const
         {
             const Vec3<Real> m =
                 detail::select(_delta, Vec3<Real>(Real(0), Real(0), Real(1)), _visible.sample(u));
@@ -110,13 +111,13 @@ public:
             return s;
         }
 
-        Real pdf(const Vec3<Real>& wi) const
+        REGAIN_HOST_DEVICE Real pdf(const Vec3<Real>& wi) const
         {
             const Terms t = terms(wi);
             return detail::select(t.valid, t.density, Real(0));
         }
 
-        Albedo<Real> albedo() const
+        REGAIN_HOST_DEVICE Albedo<Real> albedo() const
         {
             const MicrofacetTables& t = _lobe._tables;
             if (t.has_albedo() && t.has_moments()) return {tabulated_albedo(), Color(Real(0))};
@@ -134,7 +135,7 @@ public:
             Real cos_facet;  // wo.h
         };
 
-        Terms terms(const Vec3<Real>& direction) const
+        REGAIN_HOST_DEVICE Terms terms(const Vec3<Real>& direction) const
         {
             const Distribution& distribution = _lobe._distribution;
 
@@ -156,7 +157,7 @@ public:
             return t;
         }
 
-        Color tabulated_albedo() const
+        REGAIN_HOST_DEVICE Color tabulated_albedo() const
         {
             const MicrofacetTables& tables = _lobe._tables;
             const DirectionAxes<Real> axes(_lobe._distribution);
@@ -174,7 +175,7 @@ public:
         Color _weight;
     };
 
-    Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
+    REGAIN_HOST_DEVICE Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
 
 private:
     Distribution _distribution;

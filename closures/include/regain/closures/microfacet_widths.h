@@ -26,20 +26,20 @@ public:
     /// meaningful in the number type: half-vectors are known to a few ulps, D varies over alpha.
     static constexpr double delta_alpha = sizeof(ScalarOf<Real>) == 4 ? 1e-5 : 1e-9;
 
-    Real alpha_x() const { return _alpha_x; }
-    Real alpha_y() const { return _alpha_y; }
-    Mask is_delta() const { return _delta; }
+    REGAIN_HOST_DEVICE Real alpha_x() const { return _alpha_x; }
+    REGAIN_HOST_DEVICE Real alpha_y() const { return _alpha_y; }
+    REGAIN_HOST_DEVICE Mask is_delta() const { return _delta; }
 
     /// One width in place of two, for what is tabulated over a single alpha: the root mean square,
     /// which of the simple means leaves the least error.
-    Real effective_alpha() const
+    REGAIN_HOST_DEVICE Real effective_alpha() const
     {
         const Real mean = sqrt(Real(0.5f) * (_alpha_x * _alpha_x + _alpha_y * _alpha_y));
         return detail::select(_alpha_x == _alpha_y, _alpha_x, mean);
     }
 
-    Real G1(const Vec3<Real>& w) const { return w.z / self().projected_area(w); }
-    Real G2(const Vec3<Real>& wo, const Vec3<Real>& wi) const
+    REGAIN_HOST_DEVICE Real G1(const Vec3<Real>& w) const { return w.z / self().projected_area(w); }
+    REGAIN_HOST_DEVICE Real G2(const Vec3<Real>& wo, const Vec3<Real>& wi) const
     {
         return Real(1) / (Real(1) + self().lambda(wo) + self().lambda(wi));
     }
@@ -47,7 +47,7 @@ public:
 protected:
     /// Widths along x and y in [0, 1]; outside they are clamped, NaN becomes 1. One axis narrower
     /// than delta_alpha is widened to it unless both are.
-    MicrofacetWidths(Real alpha_x, Real alpha_y)
+    REGAIN_HOST_DEVICE MicrofacetWidths(Real alpha_x, Real alpha_y)
     {
         const Real bound = constant<Real>(delta_alpha);
         const Real ax = sanitised(alpha_x, 0, 1, 1), ay = sanitised(alpha_y, 0, 1, 1);
@@ -60,13 +60,13 @@ protected:
     }
 
     /// Squared length of the part of w along the surface, stretched by the widths.
-    Real tangential2(const Vec3<Real>& w) const
+    REGAIN_HOST_DEVICE Real tangential2(const Vec3<Real>& w) const
     {
         const Real x = _alpha_x * w.x, y = _alpha_y * w.y;
         return x * x + y * y;
     }
     /// The same of h, shrunk by the widths.
-    Real shrunk_tangential2(const Vec3<Real>& h) const
+    REGAIN_HOST_DEVICE Real shrunk_tangential2(const Vec3<Real>& h) const
     {
         const Real x = h.x * _inv_alpha_x, y = h.y * _inv_alpha_y;
         return x * x + y * y;
@@ -77,7 +77,10 @@ protected:
     Mask _delta;
 
 private:
-    const Distribution& self() const { return static_cast<const Distribution&>(*this); }
+    REGAIN_HOST_DEVICE const Distribution& self() const
+    {
+        return static_cast<const Distribution&>(*this);
+    }
 };
 
 /// Slopes in units of the widths, along and across a direction w as it looks after stretching:
@@ -87,7 +90,7 @@ template <class Real>
 class SlopeFrame
 {
 public:
-    SlopeFrame(Real alpha_x, Real alpha_y, const Vec3<Real>& w)
+    REGAIN_HOST_DEVICE SlopeFrame(Real alpha_x, Real alpha_y, const Vec3<Real>& w)
         : _alpha_x(alpha_x), _alpha_y(alpha_y)
     {
         const Real x = alpha_x * w.x, y = alpha_y * w.y;
@@ -101,11 +104,11 @@ public:
     }
 
     /// Cotangent of w after stretching: w.m > 0 where along > -cotangent.
-    Real cotangent() const { return _cotangent; }
+    REGAIN_HOST_DEVICE Real cotangent() const { return _cotangent; }
 
     /// The unit normal whose slopes lean towards w by `along` and sideways by `across`; z > 0.
     /// Slopes beyond 1e15 are taken for 1e15, whose normals lie in the surface for all purposes.
-    Vec3<Real> normal(const Real& along, const Real& across) const
+    REGAIN_HOST_DEVICE Vec3<Real> normal(const Real& along, const Real& across) const
     {
         const Real a = limited(along), b = limited(across);
         const Vec3<Real> m(_alpha_x * (a * _cos - b * _sin), _alpha_y * (a * _sin + b * _cos),
@@ -117,7 +120,7 @@ private:
     using Mask = MaskOf<Real>;
     static constexpr double smallest = 1e-18;
 
-    static Real limited(const Real& slope)
+    REGAIN_HOST_DEVICE static Real limited(const Real& slope)
     {
         const Real most = constant<Real>(1e15);
         return detail::max(detail::min(slope, most), -most);

@@ -51,12 +51,15 @@ constexpr int walk_limit = 4096;
 
 namespace detail {
 
+/// What lies between 1 and the number below it.
+template <class Real>
+constexpr ScalarOf<Real> half_epsilon = std::numeric_limits<ScalarOf<Real>>::epsilon() / 2;
+
 /// Exponentially distributed for u uniform in [0, 1); finite for 1, too.
 template <class Real>
-Real exponential(const Real& u)
+REGAIN_HOST_DEVICE Real exponential(const Real& u)
 {
-    return -detail::log(
-        detail::max(Real(1) - u, Real(std::numeric_limits<ScalarOf<Real>>::epsilon() / 2)));
+    return -detail::log(detail::max(Real(1) - u, Real(half_epsilon<Real>)));
 }
 
 /// Optical depth of a walk, lane by lane: drawn, or known only to have the law of the first hit.
@@ -67,11 +70,12 @@ public:
     using Mask = MaskOf<Real>;
 
     /// The first hit of a ray from wo; mu = wo.z > 0, area = sigma(wo).
-    WalkDepth(const Real& mu, const Real& area) : _mu(mu), _area(area), _tau(Real(0)), _drawn(false)
+    REGAIN_HOST_DEVICE WalkDepth(const Real& mu, const Real& area)
+        : _mu(mu), _area(area), _tau(Real(0)), _drawn(false)
     {}
 
     /// Probability that a ray from here leaves along w; z = w.z > 0, area = sigma(-w).
-    Real escape_probability(const Real& z, const Real& area) const
+    REGAIN_HOST_DEVICE Real escape_probability(const Real& z, const Real& area) const
     {
         const Real out = _area * z;
         const Real fresh = out / (out + area * _mu);
@@ -80,7 +84,7 @@ public:
     }
 
     /// True where a ray along d leaves without its depth being drawn; z = d.z, area = sigma(-d).
-    Mask leaves_at_once(const Real& z, const Real& area, const Real& u) const
+    REGAIN_HOST_DEVICE Mask leaves_at_once(const Real& z, const Real& area, const Real& u) const
     {
         const Real out = _area * z;
         return both<Real>(both<Real>(!_drawn, z > constant<Real>(horizon)),
@@ -90,7 +94,8 @@ public:
     /// Takes the ray along d to its next hit; true where it leaves instead. u decides about the
     /// step, `first` is the number that the first hit is drawn by: the same one throughout a walk.
     /// Only lanes in `active` matter.
-    Mask move(const Real& z, const Real& area, const Real& u, const Real& first, const Mask& active)
+    REGAIN_HOST_DEVICE Mask move(const Real& z, const Real& area, const Real& u, const Real& first,
+                                 const Mask& active)
     {
         const Mask left = leaves_at_once(z, area, u);
         const Mask up = z > constant<Real>(horizon);
@@ -105,7 +110,8 @@ public:
     }
 
     /// The same for a ray that is not to leave: returns the probability that it does not.
-    Real stay(const Real& z, const Real& area, const Real& u, const Real& first, const Mask& active)
+    REGAIN_HOST_DEVICE Real stay(const Real& z, const Real& area, const Real& u, const Real& first,
+                                 const Mask& active)
     {
         const Mask up = z > constant<Real>(horizon);
         const Real stays =
@@ -116,7 +122,7 @@ public:
 
     /// Probability that a ray from here leaves on the other side of the surface; z and area as
     /// above, in the frame of that side.
-    Real escape_beyond(const Real& z, const Real& area, const Real& first) const
+    REGAIN_HOST_DEVICE Real escape_beyond(const Real& z, const Real& area, const Real& first) const
     {
         WalkDepth other = *this;
         other.cross(first, Mask(true));
@@ -125,18 +131,17 @@ public:
 
     /// The ray passes to the other side of the surface, where light in `lanes` goes on. What was
     /// below is above, and C1 becomes 1 - C1.
-    void cross(const Real& first, const Mask& lanes)
+    REGAIN_HOST_DEVICE void cross(const Real& first, const Mask& lanes)
     {
         draw(first, lanes);
         // Half an ulp is as near to the far end as C1 can tell.
-        const Real above = detail::max(Real(1) - detail::exp(-_tau),
-                                       Real(std::numeric_limits<ScalarOf<Real>>::epsilon() / 2));
+        const Real above = detail::max(Real(1) - detail::exp(-_tau), Real(half_epsilon<Real>));
         _tau = select(lanes, -detail::log(above), _tau);
     }
 
 private:
     // Draws the depth of the first hit in these lanes, unless that has been done.
-    void draw(const Real& first, const Mask& lanes)
+    REGAIN_HOST_DEVICE void draw(const Real& first, const Mask& lanes)
     {
         const Mask now = both<Real>(lanes, !_drawn);
         if (!any<Real>(now)) return;
@@ -157,7 +162,8 @@ struct FacetReflection
     Real quarter_D, cosine;
 
     template <class Distribution>
-    FacetReflection(const Distribution& distribution, const Vec3<Real>& v, const Vec3<Real>& wi)
+    REGAIN_HOST_DEVICE FacetReflection(const Distribution& distribution, const Vec3<Real>& v,
+                                       const Vec3<Real>& wi)
     {
         const Vec3<Real> sum = half_vector(v, wi);
         // Squares of less than this underflow.
@@ -178,8 +184,8 @@ struct FacetRefraction
     Real D_jacobian, cosine, cosine_beyond;
 
     template <class Distribution>
-    FacetRefraction(const Distribution& distribution, const Vec3<Real>& v, const Vec3<Real>& wi,
-                    const RelativeIndex<Real>& eta)
+    REGAIN_HOST_DEVICE FacetRefraction(const Distribution& distribution, const Vec3<Real>& v,
+                                       const Vec3<Real>& wi, const RelativeIndex<Real>& eta)
     {
         const Vec3<Real> sum = refraction_half_vector(v, wi, eta);
         const Real along = dot(v, sum), beyond = -dot(wi, sum), sum2 = dot(sum, sum);
@@ -198,7 +204,7 @@ struct FacetRefraction
 /// sigma(v) of prepared visible normals. Straight from below nothing is visible, and less than
 /// nothing underflows; such a ray leaves, so it does not matter what is put in its place.
 template <class Visible>
-auto visible_area(const Visible& visible)
+REGAIN_HOST_DEVICE auto visible_area(const Visible& visible)
 {
     const auto area = visible.projected_area();
     return detail::max(area, constant<std::decay_t<decltype(area)>>(1e-30));
@@ -206,7 +212,7 @@ auto visible_area(const Visible& visible)
 
 /// A direction seen in a mirror on the surface: what one side's frame is to the other's.
 template <class Real>
-Vec3<Real> mirrored(const Vec3<Real>& w)
+REGAIN_HOST_DEVICE Vec3<Real> mirrored(const Vec3<Real>& w)
 {
     return {w.x, w.y, -w.z};
 }
@@ -214,7 +220,7 @@ Vec3<Real> mirrored(const Vec3<Real>& w)
 /// The numbers of the i-th of several walks from the host's: shifted along an additive recurrence
 /// (Roberts 2018), so that the first bounces of the walks are spread evenly.
 template <class Real>
-Vec3<Real> shifted_numbers(const Vec3<Real>& u, int i)
+REGAIN_HOST_DEVICE Vec3<Real> shifted_numbers(const Vec3<Real>& u, int i)
 {
     const auto shifted = [i](const Real& x, double step) {
         const double shift = i * step;

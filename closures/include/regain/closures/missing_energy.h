@@ -35,12 +35,12 @@ public:
     static_assert(pieces == 1 || pieces == 3, "one piece, or three about a critical cosine");
 
     /// Nothing is missing.
-    MissingEnergy() : MissingEnergy(Real(1), [](Real) { return Real(0); }) {}
+    REGAIN_HOST_DEVICE MissingEnergy() : MissingEnergy(Real(1), [](Real) { return Real(0); }) {}
 
     /// loss(mu) = 1 - E(mu) in [0, 1] for mu in [0, 1]; it is asked `pieces` * (`cells` + 1) times.
     /// alpha in (0, 1]. critical in [0, 1) is the critical cosine, 0 where there is none.
     template <class Loss>
-    MissingEnergy(Real alpha, const Loss& loss, Real critical = Real(0))
+    REGAIN_HOST_DEVICE MissingEnergy(Real alpha, const Loss& loss, Real critical = Real(0))
         : _width(alpha * detail::constant<Real>(0.5 / radius))
     {
         const Real none(0);
@@ -79,12 +79,12 @@ public:
     /// 2 int_0^1 (1 - E) mu dmu = 1 - E_avg, of this very E: what integrates to 1 has to be
     /// normalised by what is looked up, and a table of E_avg is not precise enough where next to
     /// nothing is missing.
-    Real average() const { return _average; }
+    REGAIN_HOST_DEVICE Real average() const { return _average; }
 
     /// 2 int_0^1 (1 - E) g mu dmu, by the same nodes as average(), which is that of g = 1. `loss`
     /// is what the object was built of; g(mu) answers numbers or colours.
     template <class Loss, class G>
-    auto average_of(const Loss& loss, const G& g) const
+    REGAIN_HOST_DEVICE auto average_of(const Loss& loss, const G& g) const
     {
         using Value = std::decay_t<decltype(g(Real(1)))>;
         Value sum(Real(0));
@@ -96,7 +96,7 @@ public:
     }
 
     /// Density of mu in [0, 1]; integrates to 1.
-    Real density(Real mu) const
+    REGAIN_HOST_DEVICE Real density(Real mu) const
     {
         using Number = NumberTraits<Real>;
         const Place place = along(mu);
@@ -135,7 +135,7 @@ public:
     }
 
     /// A cosine in (0, 1] for u in [0, 1].
-    Real sample(Real u) const
+    REGAIN_HOST_DEVICE Real sample(Real u) const
     {
         Real sum(0), below(0), low(0), high(0), cell(0);
         Real start(0), sign(1), range(1);
@@ -186,7 +186,8 @@ private:
     // The nodes (1 - E) mu dmu/ds, their mass by the trapezoidal rule, which is that of the
     // density, and their integral with Gregory's corrections at the ends.
     template <class Loss>
-    void measure(Piece& piece, const Loss& loss, Real& mass, Real& integral) const
+    REGAIN_HOST_DEVICE void measure(Piece& piece, const Loss& loss, Real& mass,
+                                    Real& integral) const
     {
         piece.log_range = detail::log1p(piece.length / _width);
         piece.inv_log_range = Real(1) / detail::max(piece.log_range, detail::constant<Real>(1e-12));
@@ -198,7 +199,7 @@ private:
     }
     // visit(i, mu, dmu/ds) for each node but one where mu is 0.
     template <class Visit>
-    void visit_nodes(const Piece& piece, const Visit& visit) const
+    REGAIN_HOST_DEVICE void visit_nodes(const Piece& piece, const Visit& visit) const
     {
         // From node to node width + distance grows by a factor.
         const Real step = detail::exp(piece.log_range * detail::constant<Real>(1.0 / cells));
@@ -212,7 +213,7 @@ private:
         }
     }
     // Of a node in the integral over s.
-    static Real corrected_weight(int i)
+    REGAIN_HOST_DEVICE static Real corrected_weight(int i)
     {
         return detail::constant<Real>(gregory(cells - i) * (vanishes ? 1 : gregory(i)) / cells);
     }
@@ -221,33 +222,33 @@ private:
     {
         Real t, derivative;
     };
-    static Place along(Real mu)
+    REGAIN_HOST_DEVICE static Place along(Real mu)
     {
         const Real r = detail::constant<Real>(radius);
         const Real c = detail::sqrt(detail::constant<Real>(radius * radius) - mu * mu);
         return {mu / (r + c), c * (r + c) * detail::constant<Real>(1 / radius)};
     }
-    static Real cosine(Real t)
+    REGAIN_HOST_DEVICE static Real cosine(Real t)
     {
         return detail::constant<Real>(2 * radius) * t / (Real(1) + t * t);
     }
-    static Real derivative(Real t)
+    REGAIN_HOST_DEVICE static Real derivative(Real t)
     {
         const Real t2 = t * t, inv = Real(1) / (Real(1) + t2);
         return detail::constant<Real>(2 * radius) * (Real(1) - t2) * inv * inv;
     }
-    static constexpr double gregory(int from_end)
+    REGAIN_HOST_DEVICE static constexpr double gregory(int from_end)
     {
         return from_end == 0 ? 3.0 / 8 : from_end == 1 ? 7.0 / 6 : from_end == 2 ? 23.0 / 24 : 1;
     }
 
-    static Real area(const Piece& piece, int i)
+    REGAIN_HOST_DEVICE static Real area(const Piece& piece, int i)
     {
         return (piece.node[i] + piece.node[i + 1]) * detail::constant<Real>(0.5 / cells);
     }
 
-    Real node([[maybe_unused]] const MaskOf<Real>& first,
-              [[maybe_unused]] const MaskOf<Real>& second, int i) const
+    REGAIN_HOST_DEVICE Real node([[maybe_unused]] const MaskOf<Real>& first,
+                                 [[maybe_unused]] const MaskOf<Real>& second, int i) const
     {
         if constexpr (pieces == 1)
             return _piece[0].node[i];

@@ -8,6 +8,7 @@
 
 #pragma once
 
+#include <regain/closures/host_device.h>
 #include <regain/closures/version.h>
 
 #include <cmath>
@@ -29,31 +30,38 @@ struct NumberTraits<Real, std::enable_if_t<std::is_floating_point_v<Real>>>
     using Index = int;
     using Bits = std::uint32_t;
 
-    static Real select(bool mask, Real a, Real b) { return mask ? a : b; }
-    static bool all(bool mask) { return mask; }
-    static bool any(bool mask) { return mask; }
-    static bool both(bool a, bool b) { return a && b; }
+    REGAIN_HOST_DEVICE static Real select(bool mask, Real a, Real b) { return mask ? a : b; }
+    REGAIN_HOST_DEVICE static bool all(bool mask) { return mask; }
+    REGAIN_HOST_DEVICE static bool any(bool mask) { return mask; }
+    REGAIN_HOST_DEVICE static bool both(bool a, bool b) { return a && b; }
 
     /// a < b, where a may be unchecked input: false for a quiet NaN, which raises no exception.
-    static bool quiet_less(Real a, Real b) { return std::isless(a, b); }
+    REGAIN_HOST_DEVICE static bool quiet_less(Real a, Real b)
+    {
+#if defined(__CUDA_ARCH__) || defined(__HIP_DEVICE_COMPILE__)
+        return a < b;  // a GPU raises none
+#else
+        return std::isless(a, b);
+#endif
+    }
 
-    static Real min(Real a, Real b) { return b < a ? b : a; }
-    static Real max(Real a, Real b) { return a < b ? b : a; }
-    static Real abs(Real x) { return std::abs(x); }
-    static Real sqrt(Real x) { return std::sqrt(x); }
-    static Real sin(Real x) { return std::sin(x); }
-    static Real cos(Real x) { return std::cos(x); }
-    static Real asin(Real x) { return std::asin(x); }
-    static Real pow(Real x, Real y) { return std::pow(x, y); }
-    static Real exp(Real x) { return std::exp(x); }
-    static Real log(Real x) { return std::log(x); }
-    static Real expm1(Real x) { return std::expm1(x); }
-    static Real log1p(Real x) { return std::log1p(x); }
-    static Real erf(Real x) { return std::erf(x); }
-    static Real erfc(Real x) { return std::erfc(x); }
+    REGAIN_HOST_DEVICE static Real min(Real a, Real b) { return b < a ? b : a; }
+    REGAIN_HOST_DEVICE static Real max(Real a, Real b) { return a < b ? b : a; }
+    REGAIN_HOST_DEVICE static Real abs(Real x) { return std::abs(x); }
+    REGAIN_HOST_DEVICE static Real sqrt(Real x) { return std::sqrt(x); }
+    REGAIN_HOST_DEVICE static Real sin(Real x) { return std::sin(x); }
+    REGAIN_HOST_DEVICE static Real cos(Real x) { return std::cos(x); }
+    REGAIN_HOST_DEVICE static Real asin(Real x) { return std::asin(x); }
+    REGAIN_HOST_DEVICE static Real pow(Real x, Real y) { return std::pow(x, y); }
+    REGAIN_HOST_DEVICE static Real exp(Real x) { return std::exp(x); }
+    REGAIN_HOST_DEVICE static Real log(Real x) { return std::log(x); }
+    REGAIN_HOST_DEVICE static Real expm1(Real x) { return std::expm1(x); }
+    REGAIN_HOST_DEVICE static Real log1p(Real x) { return std::log1p(x); }
+    REGAIN_HOST_DEVICE static Real erf(Real x) { return std::erf(x); }
+    REGAIN_HOST_DEVICE static Real erfc(Real x) { return std::erfc(x); }
 
     /// Bits that differ where numbers differ, for hashing.
-    static Bits bits(Real x)
+    REGAIN_HOST_DEVICE static Bits bits(Real x)
     {
         if constexpr (sizeof(Real) == 4)
         {
@@ -69,7 +77,7 @@ struct NumberTraits<Real, std::enable_if_t<std::is_floating_point_v<Real>>>
         }
     }
     /// A number in [0, 1) from random bits; the second half serves where one is too short.
-    static Real unit(Bits a, [[maybe_unused]] Bits b)
+    REGAIN_HOST_DEVICE static Real unit(Bits a, [[maybe_unused]] Bits b)
     {
         if constexpr (sizeof(Real) == 4)
             return static_cast<Real>(a >> 8) * Real(0x1p-24);
@@ -79,12 +87,15 @@ struct NumberTraits<Real, std::enable_if_t<std::is_floating_point_v<Real>>>
     }
 
     /// Towards zero; x is within the range of int.
-    static Index truncate(Real x) { return static_cast<int>(x); }
-    static Real to_real(Index i) { return static_cast<Real>(i); }
-    static Index at_most(Index i, int limit) { return i < limit ? i : limit; }
+    REGAIN_HOST_DEVICE static Index truncate(Real x) { return static_cast<int>(x); }
+    REGAIN_HOST_DEVICE static Real to_real(Index i) { return static_cast<Real>(i); }
+    REGAIN_HOST_DEVICE static Index at_most(Index i, int limit) { return i < limit ? i : limit; }
 
     /// data[i] as a number.
-    static Real gather(const std::uint16_t* data, Index i) { return static_cast<Real>(data[i]); }
+    REGAIN_HOST_DEVICE static Real gather(const std::uint16_t* data, Index i)
+    {
+        return static_cast<Real>(data[i]);
+    }
 };
 
 template <class Real>
@@ -102,90 +113,90 @@ using BitsOf = typename NumberTraits<Real>::Bits;
 namespace detail {
 
 template <class T>
-T select(const MaskOf<T>& mask, const T& a, const T& b)
+REGAIN_HOST_DEVICE T select(const MaskOf<T>& mask, const T& a, const T& b)
 {
     return NumberTraits<T>::select(mask, a, b);
 }
 template <class T>
-MaskOf<T> quiet_less(const T& a, const T& b)
+REGAIN_HOST_DEVICE MaskOf<T> quiet_less(const T& a, const T& b)
 {
     return NumberTraits<T>::quiet_less(a, b);
 }
 template <class T>
-T min(const T& a, const T& b)
+REGAIN_HOST_DEVICE T min(const T& a, const T& b)
 {
     return NumberTraits<T>::min(a, b);
 }
 template <class T>
-T max(const T& a, const T& b)
+REGAIN_HOST_DEVICE T max(const T& a, const T& b)
 {
     return NumberTraits<T>::max(a, b);
 }
 template <class T>
-T abs(const T& x)
+REGAIN_HOST_DEVICE T abs(const T& x)
 {
     return NumberTraits<T>::abs(x);
 }
 template <class T>
-T sqrt(const T& x)
+REGAIN_HOST_DEVICE T sqrt(const T& x)
 {
     return NumberTraits<T>::sqrt(x);
 }
 template <class T>
-T sin(const T& x)
+REGAIN_HOST_DEVICE T sin(const T& x)
 {
     return NumberTraits<T>::sin(x);
 }
 template <class T>
-T cos(const T& x)
+REGAIN_HOST_DEVICE T cos(const T& x)
 {
     return NumberTraits<T>::cos(x);
 }
 /// x in [-1, 1].
 template <class T>
-T asin(const T& x)
+REGAIN_HOST_DEVICE T asin(const T& x)
 {
     return NumberTraits<T>::asin(x);
 }
 template <class T>
-T pow(const T& x, const T& y)
+REGAIN_HOST_DEVICE T pow(const T& x, const T& y)
 {
     return NumberTraits<T>::pow(x, y);
 }
 template <class T>
-T exp(const T& x)
+REGAIN_HOST_DEVICE T exp(const T& x)
 {
     return NumberTraits<T>::exp(x);
 }
 template <class T>
-T log(const T& x)
+REGAIN_HOST_DEVICE T log(const T& x)
 {
     return NumberTraits<T>::log(x);
 }
 template <class T>
-T expm1(const T& x)
+REGAIN_HOST_DEVICE T expm1(const T& x)
 {
     return NumberTraits<T>::expm1(x);
 }
 template <class T>
-T log1p(const T& x)
+REGAIN_HOST_DEVICE T log1p(const T& x)
 {
     return NumberTraits<T>::log1p(x);
 }
 template <class T>
-T erf(const T& x)
+REGAIN_HOST_DEVICE T erf(const T& x)
 {
     return NumberTraits<T>::erf(x);
 }
 template <class T>
-T erfc(const T& x)
+REGAIN_HOST_DEVICE T erfc(const T& x)
 {
     return NumberTraits<T>::erfc(x);
 }
 
 /// Both masks hold. The operator & says so too, but on two bools it is more often a slip.
 template <class Real>
-MaskOf<Real> both(const MaskOf<Real>& a, const MaskOf<Real>& b)
+REGAIN_HOST_DEVICE MaskOf<Real> both(const MaskOf<Real>& a, const MaskOf<Real>& b)
 {
     return NumberTraits<Real>::both(a, b);
 }
@@ -193,7 +204,7 @@ MaskOf<Real> both(const MaskOf<Real>& a, const MaskOf<Real>& b)
 /// One mask holds and the other does not. The operators == and != of vectors' masks may compare
 /// lanes as numbers, and one that is true is a NaN.
 template <class Real>
-MaskOf<Real> differ(const MaskOf<Real>& a, const MaskOf<Real>& b)
+REGAIN_HOST_DEVICE MaskOf<Real> differ(const MaskOf<Real>& a, const MaskOf<Real>& b)
 {
     const MaskOf<Real> first = both<Real>(a, !b), second = both<Real>(!a, b);
     return first | second;
@@ -201,26 +212,26 @@ MaskOf<Real> differ(const MaskOf<Real>& a, const MaskOf<Real>& b)
 
 /// Every lane, some lane.
 template <class Real>
-bool all(const MaskOf<Real>& mask)
+REGAIN_HOST_DEVICE bool all(const MaskOf<Real>& mask)
 {
     return NumberTraits<Real>::all(mask);
 }
 template <class Real>
-bool any(const MaskOf<Real>& mask)
+REGAIN_HOST_DEVICE bool any(const MaskOf<Real>& mask)
 {
     return NumberTraits<Real>::any(mask);
 }
 
 /// A constant at the precision of Real.
 template <class Real>
-Real constant(double x)
+REGAIN_HOST_DEVICE Real constant(double x)
 {
     return Real(static_cast<ScalarOf<Real>>(x));
 }
 
 /// x limited to [lo, hi]; a NaN becomes `otherwise`. Raises no exception for a quiet NaN.
 template <class Real>
-Real sanitised(const Real& x, double lo, double hi, double otherwise)
+REGAIN_HOST_DEVICE Real sanitised(const Real& x, double lo, double hi, double otherwise)
 {
     const Real low = constant<Real>(lo), high = constant<Real>(hi);
     // By ==: xsimd's != is false for a NaN where vectors are AVX's.
@@ -230,7 +241,7 @@ Real sanitised(const Real& x, double lo, double hi, double otherwise)
 
 /// x limited to [0, 1]; a NaN becomes 0.
 template <class Real>
-Real saturate(const Real& x)
+REGAIN_HOST_DEVICE Real saturate(const Real& x)
 {
     return sanitised(x, 0, 1, 0);
 }

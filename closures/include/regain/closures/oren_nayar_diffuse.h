@@ -48,7 +48,7 @@ public:
     static constexpr int random_numbers = 3;
     static constexpr bool is_diffuse = true;
 
-    OrenNayarModel(const Color& color, Real roughness, bool compensated)
+    REGAIN_HOST_DEVICE OrenNayarModel(const Color& color, Real roughness, bool compensated)
         : _color(per_channel(color, [](Real v) { return saturate(v); })),
           _r(saturate(roughness)),
           _compensated(compensated)
@@ -68,18 +68,18 @@ public:
         });
     }
 
-    const Color& color() const { return _color; }
-    Real roughness() const { return _r; }
-    bool compensated() const { return _compensated; }
+    REGAIN_HOST_DEVICE const Color& color() const { return _color; }
+    REGAIN_HOST_DEVICE Real roughness() const { return _r; }
+    REGAIN_HOST_DEVICE bool compensated() const { return _compensated; }
 
-    void describe(Traits& t) const
+    REGAIN_HOST_DEVICE void describe(Traits& t) const
     {
         t.reciprocal = true;
         t.energy_preserving = _compensated;
     }
 
     /// (1 - E) / (r A) of the cosine mu in [0, 1], which needs no difference of what is nearly 1.
-    static Real loss(const Real& mu)
+    REGAIN_HOST_DEVICE static Real loss(const Real& mu)
     {
         const Lost g(mu);
         return max(constant<Real>(c1) - constant<Real>(inverse_pi) * (g.ahead - g.behind), Real(0));
@@ -88,7 +88,7 @@ public:
     class View
     {
     public:
-        View(const OrenNayarModel& model, const Vec3<Real>& wo)
+        REGAIN_HOST_DEVICE View(const OrenNayarModel& model, const Vec3<Real>& wo)
             : _model(model), _wo(wo), _frame(wo), _loss(loss(wo.z))
         {
             const Real mu = min(wo.z, Real(1)), r = model._r;
@@ -109,7 +109,7 @@ public:
             _determinant = _a - _b * _d;
         }
 
-        ReflectionTerms<Real> terms(const Vec3<Real>& wi) const
+        REGAIN_HOST_DEVICE ReflectionTerms<Real> terms(const Vec3<Real>& wi) const
         {
             const Real cos_o = _wo.z, cos_i = wi.z;
             const Real s = _wo.x * wi.x + _wo.y * wi.y;
@@ -128,7 +128,7 @@ public:
             return t;
         }
 
-        Vec3<Real> draw(const Vec3<Real>& u) const
+        REGAIN_HOST_DEVICE Vec3<Real> draw(const Vec3<Real>& u) const
         {
             const MaskOf<Real> even = u.z < _even;
             const Vec3<Real> disc = cosine_direction(u.x, u.y);
@@ -141,7 +141,7 @@ public:
             return select(even, even_direction(u.x, u.y), wi);
         }
 
-        Color albedo() const
+        REGAIN_HOST_DEVICE Color albedo() const
         {
             if (!_model._compensated)
             {
@@ -155,7 +155,7 @@ public:
 
     private:
         // wi in the frame of wo.
-        Real density(const Vec3<Real>& wi) const
+        REGAIN_HOST_DEVICE Real density(const Vec3<Real>& wi) const
         {
             // Back through the map, times its determinant over c.
             const Vec3<Real> v(wi.x - _b * wi.z, _determinant * wi.y / _c, _a * wi.z - _d * wi.x);
@@ -180,7 +180,7 @@ private:
     // G of mu, in the parts of where s > 0 and where it is not.
     struct Lost
     {
-        explicit Lost(const Real& mu)
+        REGAIN_HOST_DEVICE explicit Lost(const Real& mu)
         {
             const Real m = min(mu, Real(1)), sine = sqrt((Real(1) - m) * (Real(1) + m));
             const Real theta = constant<Real>(1.57079632679489661923) - detail::asin(m);
@@ -206,15 +206,16 @@ class OrenNayarDiffuse : public SmoothReflection<detail::OrenNayarModel<Real>>
 {
 public:
     /// color in [0, 1] per channel, roughness in [0, 1]; clamped, NaN becomes 0.
-    explicit OrenNayarDiffuse(const Color3<Real>& color, Real roughness = Real(0),
-                              bool energy_compensation = true)
+    REGAIN_HOST_DEVICE explicit OrenNayarDiffuse(const Color3<Real>& color,
+                                                 Real roughness = Real(0),
+                                                 bool energy_compensation = true)
         : SmoothReflection<detail::OrenNayarModel<Real>>(
               detail::OrenNayarModel<Real>(color, roughness, energy_compensation))
     {}
 
-    const Color3<Real>& color() const { return this->model().color(); }
-    Real roughness() const { return this->model().roughness(); }
-    bool energy_compensation() const { return this->model().compensated(); }
+    REGAIN_HOST_DEVICE const Color3<Real>& color() const { return this->model().color(); }
+    REGAIN_HOST_DEVICE Real roughness() const { return this->model().roughness(); }
+    REGAIN_HOST_DEVICE bool energy_compensation() const { return this->model().compensated(); }
 };
 
 REGAIN_NAMESPACE_END

@@ -38,8 +38,8 @@ public:
 
     /// view: the known direction that the lobe is mostly asked about; ng: the geometric normal, on
     /// the side of +z. `without_density`: which of the closure's samples are passed on.
-    PointLobe(const Closure& closure, const Vec3<Real>& view, const Vec3<Real>& ng,
-              bool without_density)
+    REGAIN_HOST_DEVICE PointLobe(const Closure& closure, const Vec3<Real>& view,
+                                 const Vec3<Real>& ng, bool without_density)
         : _closure(closure),
           _prepared(closure.prepare(known_direction(view, ng.dot(view)))),
           _view(view),
@@ -47,13 +47,16 @@ public:
           _without_density(without_density)
     {}
 
-    const Closure& closure() const { return _closure; }
-    bool without_density() const { return _without_density; }
+    REGAIN_HOST_DEVICE const Closure& closure() const { return _closure; }
+    REGAIN_HOST_DEVICE bool without_density() const { return _without_density; }
 
     /// Microfacet width of the wider axis; 0 of a lobe without densities.
-    Real roughness() const { return _without_density ? Real(0) : widest_alpha(_closure); }
+    REGAIN_HOST_DEVICE Real roughness() const
+    {
+        return _without_density ? Real(0) : widest_alpha(_closure);
+    }
 
-    PointSample<Real> sample(const Vec3<Real>& wo, const Vec3<Real>& u) const
+    REGAIN_HOST_DEVICE PointSample<Real> sample(const Vec3<Real>& wo, const Vec3<Real>& u) const
     {
         const Sample<Real> s = with_known(wo, [&](const auto& p) { return p.sample(u); });
         PointSample<Real> answer;
@@ -65,7 +68,7 @@ public:
     }
 
     /// Of a lobe without densities the answer is none.
-    PointSample<Real> evaluate(const Vec3<Real>& wo, const Vec3<Real>& wi) const
+    REGAIN_HOST_DEVICE PointSample<Real> evaluate(const Vec3<Real>& wo, const Vec3<Real>& wi) const
     {
         PointSample<Real> answer;
         answer.wi = wi;
@@ -83,13 +86,13 @@ public:
     }
 
     /// Density of wo where wi is known.
-    Real reverse_pdf(const Vec3<Real>& wo, const Vec3<Real>& wi) const
+    REGAIN_HOST_DEVICE Real reverse_pdf(const Vec3<Real>& wo, const Vec3<Real>& wi) const
     {
         return _closure.pdf(wi, wo);
     }
 
     /// Reflected and transmitted energy together.
-    Color3<Real> albedo(const Vec3<Real>& wo) const
+    REGAIN_HOST_DEVICE Color3<Real> albedo(const Vec3<Real>& wo) const
     {
         return with_known(wo, [](const auto& p) {
             const auto a = p.albedo();
@@ -98,7 +101,7 @@ public:
     }
 
     /// About that, for picking among lobes; quicker where albedo takes long.
-    Color3<Real> expected_albedo(const Vec3<Real>& wo) const
+    REGAIN_HOST_DEVICE Color3<Real> expected_albedo(const Vec3<Real>& wo) const
     {
         return with_known(wo, [](const auto& p) {
             const auto a = regain::expected_albedo(p);
@@ -110,11 +113,15 @@ private:
     static constexpr bool stochastic =
         detail::TakesNumbersInEval<typename Closure::Prepared, Real>::value;
 
-    bool is_on_its_side(const Vec3<Real>& wi) const { return sides_agree(wi.z, _ng.dot(wi)); }
+    REGAIN_HOST_DEVICE bool is_on_its_side(const Vec3<Real>& wi) const
+    {
+        return sides_agree(wi.z, _ng.dot(wi));
+    }
 
     template <class Prepared>
-    static Color3<Real> value(const Prepared& prepared, [[maybe_unused]] const Vec3<Real>& wo,
-                              const Vec3<Real>& wi)
+    REGAIN_HOST_DEVICE static Color3<Real> value(const Prepared& prepared,
+                                                 [[maybe_unused]] const Vec3<Real>& wo,
+                                                 const Vec3<Real>& wi)
     {
         if constexpr (stochastic)
         {
@@ -126,7 +133,7 @@ private:
     }
 
     template <class Ask>
-    auto with_known(const Vec3<Real>& wo, const Ask& ask) const
+    REGAIN_HOST_DEVICE auto with_known(const Vec3<Real>& wo, const Ask& ask) const
     {
         return wo == _view ? ask(_prepared)
                            : ask(_closure.prepare(known_direction(wo, _ng.dot(wo))));

@@ -23,7 +23,7 @@ public:
     using Bits = BitsOf<Real>;
 
     /// u: numbers in [0, 1). Streams of different u are as good as independent.
-    explicit RandomStream(const Vec3<Real>& u)
+    REGAIN_HOST_DEVICE explicit RandomStream(const Vec3<Real>& u)
     {
         using Number = NumberTraits<Real>;
         _key = mixed(Number::bits(u.x));
@@ -32,7 +32,7 @@ public:
     }
 
     /// The next number, uniform in [0, 1).
-    Real next()
+    REGAIN_HOST_DEVICE Real next()
     {
         using Number = NumberTraits<Real>;
         const Bits a = bits();
@@ -41,21 +41,21 @@ public:
         else
             return Number::unit(a, bits());
     }
-    Vec2<Real> next2()
+    REGAIN_HOST_DEVICE Vec2<Real> next2()
     {
         const Real x = next();
         return {x, next()};
     }
-    Vec3<Real> next3()
+    REGAIN_HOST_DEVICE Vec3<Real> next3()
     {
         const Real x = next(), y = next();
         return {x, y, next()};
     }
 
 private:
-    Bits bits() { return mixed(_key ^ mixed(Bits(_counter += 0x9E3779B9u))); }
+    REGAIN_HOST_DEVICE Bits bits() { return mixed(_key ^ mixed(Bits(_counter += 0x9E3779B9u))); }
 
-    static Bits mixed(Bits x)
+    REGAIN_HOST_DEVICE static Bits mixed(Bits x)
     {
         x ^= x >> 16;
         x *= Bits(0x7FEB352Du);

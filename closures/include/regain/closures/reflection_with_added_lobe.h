@@ -25,7 +25,7 @@ public:
     static constexpr int random_numbers = Mixture::random_numbers;
 
     /// strength is what the added lobe was built with; clamped to [0, 1], NaN becomes 0.
-    ReflectionWithAddedLobe(const Lobe& lobe, const Added& added, Real strength)
+    REGAIN_HOST_DEVICE ReflectionWithAddedLobe(const Lobe& lobe, const Added& added, Real strength)
         : _mixture(lobe, added), _F_ss(lobe.fresnel().average())
     {
         const auto& distribution = lobe.distribution();
@@ -34,10 +34,10 @@ public:
                      detail::all<Real>(distribution.alpha_x() == distribution.alpha_y());
     }
 
-    const Lobe& lobe() const { return _mixture.first(); }
-    const Added& added_lobe() const { return _mixture.second(); }
+    REGAIN_HOST_DEVICE const Lobe& lobe() const { return _mixture.first(); }
+    REGAIN_HOST_DEVICE const Added& added_lobe() const { return _mixture.second(); }
 
-    Traits traits() const
+    REGAIN_HOST_DEVICE Traits traits() const
     {
         Traits t = _mixture.traits();
         t.energy_preserving = _preserves;
@@ -47,21 +47,22 @@ public:
     class Prepared : public Mixture::Prepared
     {
     public:
-        Prepared(const ReflectionWithAddedLobe& closure, const Vec3<Real>& wo)
+        REGAIN_HOST_DEVICE Prepared(const ReflectionWithAddedLobe& closure, const Vec3<Real>& wo)
             : Prepared(closure, closure.lobe().prepare(wo), closure.added_lobe().prepare(wo))
         {}
 
     private:
         // The lobe's own albedo would cost more look-ups, or an integral where there are none.
-        Prepared(const ReflectionWithAddedLobe& closure, const typename Lobe::Prepared& lobe,
-                 const typename Added::Prepared& added)
+        REGAIN_HOST_DEVICE Prepared(const ReflectionWithAddedLobe& closure,
+                                    const typename Lobe::Prepared& lobe,
+                                    const typename Added::Prepared& added)
             : Mixture::Prepared(lobe, added, total(closure._F_ss) * (Real(1) - added.loss()),
                                 total(added.albedo().reflect))
         {}
-        static Real total(const Color& c) { return c.x + c.y + c.z; }
+        REGAIN_HOST_DEVICE static Real total(const Color& c) { return c.x + c.y + c.z; }
     };
 
-    Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
+    REGAIN_HOST_DEVICE Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
 
 private:
     Mixture _mixture;

@@ -28,8 +28,9 @@ public:
     /// F0: colour at normal incidence; F82: tint at 82 degrees, 1 leaves Schlick's curve alone;
     /// F90: colour at grazing; all in [0, 1] per channel, clamped, NaN becomes 0. exponent in [0,
     /// 100], clamped, NaN becomes 5; with 0 the curve is F90 everywhere.
-    explicit SchlickFresnel(const Color& F0, const Color& F82 = Color(Real(1)),
-                            const Color& F90 = Color(Real(1)), Real exponent = Real(5))
+    REGAIN_HOST_DEVICE explicit SchlickFresnel(const Color& F0, const Color& F82 = Color(Real(1)),
+                                               const Color& F90 = Color(Real(1)),
+                                               Real exponent = Real(5))
     {
         const auto clamped = [](Real v) { return detail::saturate(v); };
         const Color edge = detail::per_channel(F90, clamped);
@@ -45,7 +46,7 @@ public:
                detail::constant<Real>(1.0 / dip_at_82);
     }
 
-    Color at(Real mu) const
+    REGAIN_HOST_DEVICE Color at(Real mu) const
     {
         const Real x = Real(1) - mu, x2 = x * x;
         const Real falloff = power(x), dip = mu * x2 * x2 * x2;
@@ -54,17 +55,17 @@ public:
                                    [](Real v) { return detail::saturate(v); });
     }
 
-    Color normal_incidence() const { return _F0; }
+    REGAIN_HOST_DEVICE Color normal_incidence() const { return _F0; }
 
     /// Exact for the exponent 5, unless F is clamped.
-    Color mean(const FresnelMoments<Real>& moments) const
+    REGAIN_HOST_DEVICE Color mean(const FresnelMoments<Real>& moments) const
     {
         const Real falloff = _is_quintic ? moments.falloff : power(Real(1) - moments.cosine());
         return detail::per_channel(_F0 + _edge * falloff - _dip * moments.dip,
                                    [](Real v) { return detail::saturate(v); });
     }
 
-    Color average() const
+    REGAIN_HOST_DEVICE Color average() const
     {
         const Real n = _exponent;
         const Color closed_form = _F0 + _edge * (Real(2) / ((n + Real(1)) * (n + Real(2)))) -
@@ -85,7 +86,7 @@ private:
     // mu (1 - mu)^6 at mu = 1/7, where it is largest.
     static constexpr double dip_at_82 = 46656.0 / 823543.0;
 
-    Real power(Real x) const
+    REGAIN_HOST_DEVICE Real power(Real x) const
     {
         if (_is_quintic)
         {
@@ -95,7 +96,7 @@ private:
         return detail::pow(detail::max(x, Real(0)), _exponent);
     }
 
-    Color average_by_quadrature() const
+    REGAIN_HOST_DEVICE Color average_by_quadrature() const
     {
         constexpr int n = 32;
         Color sum(Real(0));

@@ -34,7 +34,7 @@ REGAIN_NAMESPACE_BEGIN
 
 /// A direction is on one side of both normals, by its cosines with them.
 template <class Real>
-MaskOf<Real> sides_agree(const Real& with_shading, const Real& with_geometric)
+REGAIN_HOST_DEVICE MaskOf<Real> sides_agree(const Real& with_shading, const Real& with_geometric)
 {
     const Real none(0);
     const MaskOf<Real> above = detail::both<Real>(detail::quiet_less(none, with_shading),
@@ -47,7 +47,7 @@ MaskOf<Real> sides_agree(const Real& with_shading, const Real& with_geometric)
 /// What a closure is prepared for where the known direction is `local` in its frame: that, or no
 /// direction where the normals do not agree on its side.
 template <class Real>
-Vec3<Real> known_direction(const Vec3<Real>& local, const Real& with_geometric)
+REGAIN_HOST_DEVICE Vec3<Real> known_direction(const Vec3<Real>& local, const Real& with_geometric)
 {
     return detail::select(sides_agree(local.z, with_geometric), local, Vec3<Real>(Real(0)));
 }
@@ -61,7 +61,8 @@ struct ShadingFrame
 
     /// As the normals are. N and Ng are unit; x is along T, which is any vector, and along some
     /// axis where T is within a thousandth of parallel to N.
-    static ShadingFrame of(const Vec3<Real>& N, const Vec3<Real>& Ng, const Vec3<Real>& T)
+    REGAIN_HOST_DEVICE static ShadingFrame of(const Vec3<Real>& N, const Vec3<Real>& Ng,
+                                              const Vec3<Real>& T)
     {
         const auto across = [&](const Vec3<Real>& w) { return w - N * detail::dot(N, w); };
         const Vec3<Real> first(Real(1), Real(0), Real(0)), second(Real(0), Real(1), Real(0));
@@ -80,27 +81,31 @@ struct ShadingFrame
     }
 
     /// On the side of V by Ng.
-    static ShadingFrame facing(const Vec3<Real>& V, const Vec3<Real>& N, const Vec3<Real>& Ng,
-                               const Vec3<Real>& T)
+    REGAIN_HOST_DEVICE static ShadingFrame facing(const Vec3<Real>& V, const Vec3<Real>& N,
+                                                  const Vec3<Real>& Ng, const Vec3<Real>& T)
     {
         const MaskOf<Real> behind = detail::quiet_less(detail::dot(Ng, V), Real(0));
         return of(detail::select(behind, -N, N), detail::select(behind, -Ng, Ng), T);
     }
 
-    Vec3<Real> to_local(const Vec3<Real>& w) const
+    REGAIN_HOST_DEVICE Vec3<Real> to_local(const Vec3<Real>& w) const
     {
         return {detail::dot(w, x), detail::dot(w, y), detail::dot(w, z)};
     }
-    Vec3<Real> to_world(const Vec3<Real>& w) const { return x * w.x + y * w.y + z * w.z; }
+    REGAIN_HOST_DEVICE Vec3<Real> to_world(const Vec3<Real>& w) const
+    {
+        return x * w.x + y * w.y + z * w.z;
+    }
 
     /// Both normals agree on the side of w, which is `local` in the frame.
-    MaskOf<Real> is_on_its_side(const Vec3<Real>& w, const Vec3<Real>& local) const
+    REGAIN_HOST_DEVICE MaskOf<Real> is_on_its_side(const Vec3<Real>& w,
+                                                   const Vec3<Real>& local) const
     {
         return sides_agree(local.z, detail::dot(geometric, w));
     }
 
     /// w in the frame, for a closure to be prepared for.
-    Vec3<Real> known(const Vec3<Real>& w) const
+    REGAIN_HOST_DEVICE Vec3<Real> known(const Vec3<Real>& w) const
     {
         return known_direction(to_local(w), detail::dot(geometric, w));
     }

@@ -35,15 +35,15 @@ public:
 
     /// weight: Burley's `sheen`, in [0, 1], clamped, NaN becomes 0. color: in [0, 100] per channel
     /// (a tint of unit luminance may pass 1), clamped, NaN becomes 0.
-    explicit Sheen(Real weight, const Color& color = Color(Real(1)))
+    REGAIN_HOST_DEVICE explicit Sheen(Real weight, const Color& color = Color(Real(1)))
         : _color(
               detail::per_channel(color, [](Real v) { return detail::sanitised(v, 0, 100, 0); }) *
               detail::saturate(weight))
     {}
 
-    const Color& color() const { return _color; }
+    REGAIN_HOST_DEVICE const Color& color() const { return _color; }
 
-    Traits traits() const
+    REGAIN_HOST_DEVICE Traits traits() const
     {
         Traits t;
         t.reciprocal = true;
@@ -55,7 +55,7 @@ public:
     class Prepared
     {
     public:
-        Prepared(const Sheen& closure, const Vec3<Real>& wo)
+        REGAIN_HOST_DEVICE Prepared(const Sheen& closure, const Vec3<Real>& wo)
             : _valid(detail::is_above_horizon(wo)),
               _wo(detail::normalised(
                   detail::select(_valid, wo, Vec3<Real>(Real(0), Real(0), Real(1))))),
@@ -65,16 +65,16 @@ public:
             _even = detail::constant<Real>(0.05) + detail::constant<Real>(0.95) * mu2 * mu2;
         }
 
-        const Vec3<Real>& wo() const { return _wo; }
-        void scale_by(const Color& weight) { _weight *= weight; }
+        REGAIN_HOST_DEVICE const Vec3<Real>& wo() const { return _wo; }
+        REGAIN_HOST_DEVICE void scale_by(const Color& weight) { _weight *= weight; }
 
-        Color eval(const Vec3<Real>& wi) const
+        REGAIN_HOST_DEVICE Color eval(const Vec3<Real>& wi) const
         {
             const Terms t = terms(wi);
             return detail::select(t.valid, _weight * t.value, Color(Real(0)));
         }
 
-        Sample<Real> sample(const Vec3<Real>& u) const
+        REGAIN_HOST_DEVICE Sample<Real> sample(const Vec3<Real>& u) const
         {
             const Real phi = detail::constant<Real>(6.28318530717958647692) * detail::saturate(u.y);
             const Real x = detail::cos(phi), y = detail::sin(phi), v = detail::saturate(u.x);
@@ -103,14 +103,14 @@ public:
             return s;
         }
 
-        Real pdf(const Vec3<Real>& wi) const
+        REGAIN_HOST_DEVICE Real pdf(const Vec3<Real>& wi) const
         {
             const Terms t = terms(wi);
             return detail::select(t.valid, t.density, Real(0));
         }
 
         /// By a polynomial: within 2e-6 of the integral.
-        Albedo<Real> albedo() const
+        REGAIN_HOST_DEVICE Albedo<Real> albedo() const
         {
             constexpr double c[] = {0.08845450,  -0.24951544, 0.25672843,  -0.06981698,
                                     -0.12432510, 0.18309152,  -0.11148756, 0.02712946};
@@ -129,7 +129,7 @@ public:
             Real value;    // f cos theta_i of a white one
             Real density;  // per steradian
         };
-        Terms terms(const Vec3<Real>& direction) const
+        REGAIN_HOST_DEVICE Terms terms(const Vec3<Real>& direction) const
         {
             Terms t;
             t.valid = detail::both<Real>(_valid, detail::is_above_horizon(direction));
@@ -151,14 +151,14 @@ public:
                         _even * detail::constant<Real>(0.159154943091895335769);
             return t;
         }
-        static Real power(Real x)
+        REGAIN_HOST_DEVICE static Real power(Real x)
         {
             const Real x2 = x * x, x4 = x2 * x2;
             return x4 * x4;
         }
 
         // A vector given about the z axis, turned to be about `axis` (Duff et al. 2017).
-        static Vec3<Real> turned(const Vec3<Real>& axis, const Vec3<Real>& v)
+        REGAIN_HOST_DEVICE static Vec3<Real> turned(const Vec3<Real>& axis, const Vec3<Real>& v)
         {
             const Real sign = detail::select(axis.z < Real(0), Real(-1), Real(1));
             const Real a = Real(-1) / (sign + axis.z), b = axis.x * axis.y * a;
@@ -173,7 +173,7 @@ public:
         Real _even;  // share of samples that are even over the hemisphere
     };
 
-    Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
+    REGAIN_HOST_DEVICE Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
 
 private:
     Color _color;
@@ -183,7 +183,7 @@ private:
 /// which is the base colour at a luminance of 1. `luminance` is the base colour's, in the working
 /// space; where it is not positive the sheen stays white.
 template <class Real>
-Color3<Real> sheen_color(const Color3<Real>& base, Real luminance, Real tint)
+REGAIN_HOST_DEVICE Color3<Real> sheen_color(const Color3<Real>& base, Real luminance, Real tint)
 {
     const Real t = detail::saturate(tint);
     const Real Y = detail::sanitised(luminance, 0, 1e6, 0);
@@ -197,7 +197,7 @@ Color3<Real> sheen_color(const Color3<Real>& base, Real luminance, Real tint)
 
 /// A base under Burley's sheen: the method `burley-sheen`.
 template <class Base>
-Sum<Base, Sheen<typename Base::Real>> burley_sheen(
+REGAIN_HOST_DEVICE Sum<Base, Sheen<typename Base::Real>> burley_sheen(
     const Base& base, typename Base::Real weight,
     const Color3<typename Base::Real>& color = Color3<typename Base::Real>(typename Base::Real(1)))
 {

@@ -40,11 +40,11 @@ public:
     static constexpr int random_numbers = Model::random_numbers;
     static constexpr bool is_diffuse = Model::is_diffuse;
 
-    explicit SmoothReflection(const Model& model) : _model(model) {}
+    REGAIN_HOST_DEVICE explicit SmoothReflection(const Model& model) : _model(model) {}
 
-    const Model& model() const { return _model; }
+    REGAIN_HOST_DEVICE const Model& model() const { return _model; }
 
-    Traits traits() const
+    REGAIN_HOST_DEVICE Traits traits() const
     {
         Traits t;
         t.exact_pdf = true;
@@ -56,7 +56,7 @@ public:
     class Prepared
     {
     public:
-        Prepared(const SmoothReflection& closure, const Vec3<Real>& wo)
+        REGAIN_HOST_DEVICE Prepared(const SmoothReflection& closure, const Vec3<Real>& wo)
             : _valid(detail::is_above_horizon(wo)),
               _wo(detail::normalised(
                   detail::select(_valid, wo, Vec3<Real>(Real(0), Real(0), Real(1))))),
@@ -64,20 +64,20 @@ public:
               _view(closure._model, _wo)
         {}
 
-        const Vec3<Real>& wo() const { return _wo; }
-        void scale_by(const Color& weight) { _weight *= weight; }
+        REGAIN_HOST_DEVICE const Vec3<Real>& wo() const { return _wo; }
+        REGAIN_HOST_DEVICE void scale_by(const Color& weight) { _weight *= weight; }
 
-        Color eval(const Vec3<Real>& wi) const
+        REGAIN_HOST_DEVICE Color eval(const Vec3<Real>& wi) const
         {
             const Mask valid = detail::both<Real>(_valid, detail::is_above_horizon(wi));
             return detail::select(valid, _weight * terms(valid, wi).value, Color(Real(0)));
         }
 
-        Sample<Real> sample(const Vec2<Real>& u) const
+        REGAIN_HOST_DEVICE Sample<Real> sample(const Vec2<Real>& u) const
         {
             return sample(detail::two_numbers<SmoothReflection>(u));
         }
-        Sample<Real> sample(const Vec3<Real>& u) const
+        REGAIN_HOST_DEVICE Sample<Real> sample(const Vec3<Real>& u) const
         {
             Vec3<Real> wi = _view.draw(
                 Vec3<Real>(detail::saturate(u.x), detail::saturate(u.y), detail::saturate(u.z)));
@@ -94,16 +94,20 @@ public:
             return s;
         }
 
-        Real pdf(const Vec3<Real>& wi) const
+        REGAIN_HOST_DEVICE Real pdf(const Vec3<Real>& wi) const
         {
             const Mask valid = detail::both<Real>(_valid, detail::is_above_horizon(wi));
             return detail::select(valid, terms(valid, wi).density, Real(0));
         }
 
-        Albedo<Real> albedo() const { return {_weight * _view.albedo(), Color(Real(0))}; }
+        REGAIN_HOST_DEVICE Albedo<Real> albedo() const
+        {
+            return {_weight * _view.albedo(), Color(Real(0))};
+        }
 
     private:
-        ReflectionTerms<Real> terms(const Mask& valid, const Vec3<Real>& wi) const
+        REGAIN_HOST_DEVICE ReflectionTerms<Real> terms(const Mask& valid,
+                                                       const Vec3<Real>& wi) const
         {
             return _view.terms(detail::select(valid, wi, Vec3<Real>(Real(0), Real(0), Real(1))));
         }
@@ -114,7 +118,7 @@ public:
         typename Model::View _view;
     };
 
-    Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
+    REGAIN_HOST_DEVICE Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
 
 private:
     Model _model;
@@ -124,7 +128,7 @@ namespace detail {
 
 /// A unit wi by the cosine for u in [0, 1]^2.
 template <class Real>
-Vec3<Real> cosine_direction(const Real& u, const Real& v)
+REGAIN_HOST_DEVICE Vec3<Real> cosine_direction(const Real& u, const Real& v)
 {
     const Real sine = sqrt(u), phi = constant<Real>(6.28318530717958647692) * v;
     return {sine * detail::cos(phi), sine * detail::sin(phi), sqrt(Real(1) - u)};
@@ -132,7 +136,7 @@ Vec3<Real> cosine_direction(const Real& u, const Real& v)
 
 /// Evenly over the hemisphere.
 template <class Real>
-Vec3<Real> even_direction(const Real& u, const Real& v)
+REGAIN_HOST_DEVICE Vec3<Real> even_direction(const Real& u, const Real& v)
 {
     const Real sine = sqrt(max((Real(1) - u) * (Real(1) + u), Real(0))),
                phi = constant<Real>(6.28318530717958647692) * v;
@@ -146,7 +150,7 @@ template <class Real>
 class AzimuthFrame
 {
 public:
-    explicit AzimuthFrame(const Vec3<Real>& wo)
+    REGAIN_HOST_DEVICE explicit AzimuthFrame(const Vec3<Real>& wo)
     {
         const Real s2 = wo.x * wo.x + wo.y * wo.y;
         const MaskOf<Real> slanted = s2 > constant<Real>(1e-30);
@@ -154,11 +158,11 @@ public:
         _cos = select(slanted, wo.x * scale, Real(1));
         _sin = select(slanted, wo.y * scale, Real(0));
     }
-    Vec3<Real> to(const Vec3<Real>& w) const
+    REGAIN_HOST_DEVICE Vec3<Real> to(const Vec3<Real>& w) const
     {
         return {_cos * w.x + _sin * w.y, _cos * w.y - _sin * w.x, w.z};
     }
-    Vec3<Real> from(const Vec3<Real>& w) const
+    REGAIN_HOST_DEVICE Vec3<Real> from(const Vec3<Real>& w) const
     {
         return {_cos * w.x - _sin * w.y, _sin * w.x + _cos * w.y, w.z};
     }

@@ -49,11 +49,12 @@ public:
     static constexpr int random_numbers = 3;
     static constexpr bool has_tail = true;
     static constexpr CosineAxis cosine_axis = CosineAxis::tail;
+    static constexpr WidthAxis width_axis = WidthAxis::std;
 
     /// Widths along x and y in [0, 1]; outside they are clamped, NaN becomes 1. One axis narrower
     /// than delta_alpha is widened to it unless both are. gamma in [std_min_gamma, std_max_gamma];
     /// outside it is clamped, NaN becomes 2.
-    explicit STD(Real alpha_x, Real alpha_y, Real gamma)
+    REGAIN_HOST_DEVICE explicit STD(Real alpha_x, Real alpha_y, Real gamma)
         : Widths(alpha_x, alpha_y),
           _gamma(detail::sanitised(gamma, std_min_gamma, std_max_gamma, 2)),
           _p(_gamma - Real(1)),
@@ -74,18 +75,16 @@ public:
             _fraction[n - 1] = numerator / (denominator * (denominator + Real(1)));
         }
     }
-    explicit STD(Real alpha, Real gamma) : STD(alpha, alpha, gamma) {}
+    REGAIN_HOST_DEVICE explicit STD(Real alpha, Real gamma) : STD(alpha, alpha, gamma) {}
 
     /// Tail parameter, and its coordinate along the third axis of tables.
-    Real gamma() const { return _gamma; }
-    Real tail() const { return std_tail(_gamma); }
+    REGAIN_HOST_DEVICE Real gamma() const { return _gamma; }
+    REGAIN_HOST_DEVICE Real tail() const { return std_tail(_gamma); }
     /// Of slopes: 1 is GGX's, 0 Beckmann's. See anisotropy.h.
-    Real tail_length() const { return _inv_p; }
-    /// Coordinate of a width along the second axis.
-    static Real table_width(Real alpha) { return std_width(alpha); }
+    REGAIN_HOST_DEVICE Real tail_length() const { return _inv_p; }
 
     /// D of the normal m along h, which need not be unit: length2 = h.h. Per steradian.
-    Real D(const Vec3<Real>& h, Real length2) const
+    REGAIN_HOST_DEVICE Real D(const Vec3<Real>& h, Real length2) const
     {
         // GGX's form of it, widened by sqrt(p), and what is left for gamma other than 2. Through
         // the logarithm, which neither overflows nor loses the digits of small slopes.
@@ -97,22 +96,22 @@ public:
         const Real rest = detail::exp((Real(1) - _p) * detail::log1p(t2 / z2));
         return _normalisation * r * r * detail::max(rest, detail::constant<Real>(least));
     }
-    Real D(const Vec3<Real>& m) const { return D(m, Real(1)); }
+    REGAIN_HOST_DEVICE Real D(const Vec3<Real>& m) const { return D(m, Real(1)); }
 
     /// Projected area of the visible microsurface, sigma(w) above; w.z may have either sign.
-    Real projected_area(const Vec3<Real>& w) const
+    REGAIN_HOST_DEVICE Real projected_area(const Vec3<Real>& w) const
     {
         return detail::max(w.z, Real(0)) + excess_area(w);
     }
 
     /// Lambda(w) for w.z > 0.
-    Real lambda(const Vec3<Real>& w) const { return excess_area(w) / w.z; }
+    REGAIN_HOST_DEVICE Real lambda(const Vec3<Real>& w) const { return excess_area(w) / w.z; }
 
     /// The visible normals of one wo.
     class Visible
     {
     public:
-        Visible(const STD& distribution, const Vec3<Real>& wo)
+        REGAIN_HOST_DEVICE Visible(const STD& distribution, const Vec3<Real>& wo)
             : _frame(distribution._alpha_x * detail::sqrt(distribution._p),
                      distribution._alpha_y * detail::sqrt(distribution._p), wo),
               _slopes(distribution._p, distribution._gamma - Real(1.5f), distribution._mean_slope,
@@ -121,13 +120,13 @@ public:
         {}
 
         /// sigma(wo).
-        Real projected_area() const { return _projected_area; }
+        REGAIN_HOST_DEVICE Real projected_area() const { return _projected_area; }
 
         /// Factor that turns D(m) into the density of the reflected direction, per steradian.
-        Real reflected_density() const { return Real(0.25f) / _projected_area; }
+        REGAIN_HOST_DEVICE Real reflected_density() const { return Real(0.25f) / _projected_area; }
 
         /// A visible normal for u in [0, 1)^3; unit, z > 0.
-        Vec3<Real> sample(const Vec3<Real>& u) const
+        REGAIN_HOST_DEVICE Vec3<Real> sample(const Vec3<Real>& u) const
         {
             const Vec2<Real> slopes = _slopes.sample(
                 {detail::saturate(u.x), detail::saturate(u.y), detail::saturate(u.z)});
@@ -141,16 +140,16 @@ public:
     };
 
     /// All visible normals; wo.z may have either sign.
-    Visible visible(const Vec3<Real>& wo) const { return Visible(*this, wo); }
+    REGAIN_HOST_DEVICE Visible visible(const Vec3<Real>& wo) const { return Visible(*this, wo); }
     /// The same: every visible normal may be sampled, also those that reflect downwards.
-    Visible reflecting(const Vec3<Real>& wo) const { return Visible(*this, wo); }
+    REGAIN_HOST_DEVICE Visible reflecting(const Vec3<Real>& wo) const { return Visible(*this, wo); }
 
 private:
     // Enough for 1e-6 and 1e-12 of sigma at the largest gamma, and far better below.
     static constexpr int terms = sizeof(ScalarOf<Real>) == 4 ? 17 : 33;
 
     // |w| g of the above: sigma(w) - max(0, w.z), which sigma(w) and sigma(-w) share.
-    Real excess_area(const Vec3<Real>& w) const
+    REGAIN_HOST_DEVICE Real excess_area(const Vec3<Real>& w) const
     {
         const Real s2 = detail::max(_p * this->tangential2(w), detail::constant<Real>(1e-30));
         const Real cot2 = w.z * w.z / s2, y = Real(1) / (Real(1) + cot2);
@@ -162,7 +161,7 @@ private:
 
     // F(z) = 1 / (1 - f1 z / (1 - f2 z / ...)), from its end: there the fraction is taken to go on
     // with its last two coefficients for ever, which saves a third of the terms. v = p / q.
-    Real fraction(const Real& z) const
+    REGAIN_HOST_DEVICE Real fraction(const Real& z) const
     {
         const Real b = Real(1) + (_fraction[terms + 1] - _fraction[terms]) * z;
         const Real root =
@@ -179,7 +178,7 @@ private:
 
     // Gamma(p + 1/2) / (sqrt(pi) Gamma(p)): the recurrence up to where the series of
     // Gamma(q + 3/4) / Gamma(q + 1/4) in 1 / q^2 has converged.
-    static Real normalisation(const Real& p)
+    REGAIN_HOST_DEVICE static Real normalisation(const Real& p)
     {
         constexpr int steps = sizeof(ScalarOf<Real>) == 4 ? 4 : 16;
         Real below(1), above(1);
@@ -196,7 +195,7 @@ private:
                                 t * (number(631.0 / 524288) - t * number(174317.0 / 134217728))));
         return number(0.564189583547756286948) * detail::sqrt(q) * series * below / above;
     }
-    static Real number(double x) { return detail::constant<Real>(x); }
+    REGAIN_HOST_DEVICE static Real number(double x) { return detail::constant<Real>(x); }
 
     using Widths::_alpha_x, Widths::_alpha_y, Widths::_normalisation;
     Real _gamma, _p, _inv_p;

@@ -31,7 +31,8 @@ public:
 
     /// p = gamma - 1 > 1/2, beyond = p - 1/2, mean = E|x| of all slopes = C / beyond, cotangent =
     /// that of the direction of view after stretching, of either sign.
-    StudentSlopes(const Real& p, const Real& beyond, const Real& mean, const Real& cotangent)
+    REGAIN_HOST_DEVICE StudentSlopes(const Real& p, const Real& beyond, const Real& mean,
+                                     const Real& cotangent)
         : _p(p), _beyond(beyond)
     {
         _cotangent = max(min(cotangent, constant<Real>(1e6)), constant<Real>(-1e6));
@@ -41,7 +42,7 @@ public:
 
     /// Slopes along and across for u in [0, 1)^3. After 64 refused tries, of which there is less
     /// than one in 1e8, the last one is taken.
-    Vec2<Real> sample(const Vec3<Real>& u) const
+    REGAIN_HOST_DEVICE Vec2<Real> sample(const Vec3<Real>& u) const
     {
         const Mask below = _cotangent < Real(0);
         RandomStream<Real> stream(u);
@@ -77,7 +78,7 @@ private:
         Mask taken;
     };
 
-    Try from_above(const Vec3<Real>& u, const Real& v) const
+    REGAIN_HOST_DEVICE Try from_above(const Vec3<Real>& u, const Real& v) const
     {
         // Either a plain slope, by its length and angle, or one of density |x| P(x) and another
         // across, as one axis of a polar pair (Bailey 1994).
@@ -100,7 +101,7 @@ private:
         return t;
     }
 
-    Try from_below(const Vec3<Real>& u, const Real& v, const Real& w) const
+    REGAIN_HOST_DEVICE Try from_below(const Vec3<Real>& u, const Real& v, const Real& w) const
     {
         const Real a = -_cotangent, a2 = a * a;
         // Measured: where the second kind of proposal is taken more often.
@@ -122,20 +123,26 @@ private:
 
     // sqrt(1 + x^2) times the length of a pair of density proportional to (1 + r^2)^-(p + 3/2),
     // one axis of which is distributed as (1 + t^2)^-(p + 1).
-    Real across_of(const Real& square, const Real& u) const
+    REGAIN_HOST_DEVICE Real across_of(const Real& square, const Real& u) const
     {
         return sqrt(Real(1) + square) * sqrt(power_minus_one(u, _p + Real(0.5f)));
     }
 
     // u^(-1/k) - 1.
-    static Real power_minus_one(const Real& u, const Real& k)
+    REGAIN_HOST_DEVICE static Real power_minus_one(const Real& u, const Real& k)
     {
         return detail::expm1(limited(-log(number_of(u)) / k));
     }
     // Slopes above 1e11 are all the same: their normals lie in the surface.
-    static Real limited(const Real& exponent) { return min(exponent, Real(55)); }
-    static Real number_of(const Real& u) { return max(u, constant<Real>(1e-12)); }
-    static Real angle_of(const Real& u) { return constant<Real>(6.28318530717958647692) * u; }
+    REGAIN_HOST_DEVICE static Real limited(const Real& exponent) { return min(exponent, Real(55)); }
+    REGAIN_HOST_DEVICE static Real number_of(const Real& u)
+    {
+        return max(u, constant<Real>(1e-12));
+    }
+    REGAIN_HOST_DEVICE static Real angle_of(const Real& u)
+    {
+        return constant<Real>(6.28318530717958647692) * u;
+    }
 
     Real _p, _beyond, _cotangent;
     Real _plain;  // share of the plain slopes among the proposals

@@ -36,12 +36,14 @@ public:
     /// The third chooses the lobe; stretched, it serves a lobe that reads three itself.
     static constexpr int random_numbers = 3;
 
-    Sum(const First& first, const Second& second) : _first(first), _second(second) {}
+    REGAIN_HOST_DEVICE Sum(const First& first, const Second& second)
+        : _first(first), _second(second)
+    {}
 
-    const First& first() const { return _first; }
-    const Second& second() const { return _second; }
+    REGAIN_HOST_DEVICE const First& first() const { return _first; }
+    REGAIN_HOST_DEVICE const Second& second() const { return _second; }
 
-    Traits traits() const
+    REGAIN_HOST_DEVICE Traits traits() const
     {
         const Traits a = _first.traits(), b = _second.traits();
         Traits t;
@@ -57,19 +59,21 @@ public:
     class Prepared
     {
     public:
-        Prepared(const Sum& sum, const Vec3<Real>& wo)
+        REGAIN_HOST_DEVICE Prepared(const Sum& sum, const Vec3<Real>& wo)
             : Prepared(sum._first.prepare(wo), sum._second.prepare(wo))
         {}
 
-        Prepared(const typename First::Prepared& first, const typename Second::Prepared& second)
+        REGAIN_HOST_DEVICE Prepared(const typename First::Prepared& first,
+                                    const typename Second::Prepared& second)
             : Prepared(first, second, total(regain::expected_albedo(first)),
                        total(regain::expected_albedo(second)))
         {}
 
         /// `energy_1` and `energy_2`, not negative, say how often each lobe is chosen. One whose
         /// energy is 0 never is: it has to be black then.
-        Prepared(const typename First::Prepared& first, const typename Second::Prepared& second,
-                 Real energy_1, Real energy_2)
+        REGAIN_HOST_DEVICE Prepared(const typename First::Prepared& first,
+                                    const typename Second::Prepared& second, Real energy_1,
+                                    Real energy_2)
             : _first(first), _second(second)
         {
             // An estimate is no reason to starve a lobe.
@@ -80,26 +84,29 @@ public:
             _p = detail::select(energy_2 > Real(0), _p, Real(1));
         }
 
-        decltype(auto) wo() const { return _first.wo(); }
-        void scale_by(const Color& weight)
+        REGAIN_HOST_DEVICE decltype(auto) wo() const { return _first.wo(); }
+        REGAIN_HOST_DEVICE void scale_by(const Color& weight)
         {
             _first.scale_by(weight);
             _second.scale_by(weight);
         }
 
-        const typename First::Prepared& first() const { return _first; }
-        const typename Second::Prepared& second() const { return _second; }
+        REGAIN_HOST_DEVICE const typename First::Prepared& first() const { return _first; }
+        REGAIN_HOST_DEVICE const typename Second::Prepared& second() const { return _second; }
 
         /// Probability that sample asks the first lobe.
-        Real first_probability() const { return _p; }
+        REGAIN_HOST_DEVICE Real first_probability() const { return _p; }
 
-        Color eval(const Vec3<Real>& wi) const { return _first.eval(wi) + _second.eval(wi); }
-        Real pdf(const Vec3<Real>& wi) const
+        REGAIN_HOST_DEVICE Color eval(const Vec3<Real>& wi) const
+        {
+            return _first.eval(wi) + _second.eval(wi);
+        }
+        REGAIN_HOST_DEVICE Real pdf(const Vec3<Real>& wi) const
         {
             return _p * _first.pdf(wi) + (Real(1) - _p) * _second.pdf(wi);
         }
 
-        Sample<Real> sample(const Vec3<Real>& u) const
+        REGAIN_HOST_DEVICE Sample<Real> sample(const Vec3<Real>& u) const
         {
             const Real z = detail::saturate(u.z), q = Real(1) - _p;
             const Real tiny = detail::constant<Real>(1e-30);
@@ -135,13 +142,13 @@ public:
             return s;
         }
 
-        Albedo<Real> albedo() const
+        REGAIN_HOST_DEVICE Albedo<Real> albedo() const
         {
             const Albedo<Real> a = _first.albedo(), b = _second.albedo();
             return {a.reflect + b.reflect, a.transmit + b.transmit};
         }
 
-        Albedo<Real> expected_albedo() const
+        REGAIN_HOST_DEVICE Albedo<Real> expected_albedo() const
         {
             const Albedo<Real> a = regain::expected_albedo(_first),
                                b = regain::expected_albedo(_second);
@@ -151,12 +158,12 @@ public:
     private:
         static constexpr double least_probability = 1.0 / 32;
 
-        static Mask either(const Mask& first, const Mask& a, const Mask& b)
+        REGAIN_HOST_DEVICE static Mask either(const Mask& first, const Mask& a, const Mask& b)
         {
             const Mask second = !first;
             return (first & a) | (second & b);
         }
-        static Sample<Real> nothing()
+        REGAIN_HOST_DEVICE static Sample<Real> nothing()
         {
             Sample<Real> s;
             s.wi = Vec3<Real>(Real(0), Real(0), Real(1));
@@ -164,7 +171,7 @@ public:
             s.pdf = Real(0);
             return s;
         }
-        static Real total(const Albedo<Real>& albedo)
+        REGAIN_HOST_DEVICE static Real total(const Albedo<Real>& albedo)
         {
             const Color sum = albedo.reflect + albedo.transmit;
             return sum.x + sum.y + sum.z;
@@ -175,7 +182,7 @@ public:
         Real _p;
     };
 
-    Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
+    REGAIN_HOST_DEVICE Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
 
 private:
     First _first;
@@ -184,7 +191,7 @@ private:
 
 /// Sum<First, Second> without naming the types.
 template <class First, class Second>
-Sum<First, Second> sum(const First& first, const Second& second)
+REGAIN_HOST_DEVICE Sum<First, Second> sum(const First& first, const Second& second)
 {
     return {first, second};
 }

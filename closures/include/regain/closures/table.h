@@ -19,7 +19,7 @@
 /// that holds the nodes together where the logarithm is flat:
 ///     x = 3/4 (1 + ln((k + s) / (1 + s)) / ln(1 / k)) + 1/4 s / (1 + s),
 ///                                            s = cot theta_o, k = 0.004 sqrt(alpha)
-///     y = its table_width(alpha)
+///     y = gtr_width(alpha) or std_width(alpha)
 
 #pragma once
 
@@ -27,6 +27,7 @@
 #include <regain/closures/distribution.h>
 #include <regain/closures/fresnel_moments.h>
 #include <regain/closures/grid_view.h>
+#include <regain/closures/tail.h>
 
 #include <cstdint>
 
@@ -34,21 +35,21 @@ REGAIN_NAMESPACE_BEGIN
 
 /// x above; mu and alpha in [0, 1], not both 0.
 template <class Real>
-Real stretched_cosine(Real mu, Real alpha)
+REGAIN_HOST_DEVICE Real stretched_cosine(Real mu, Real alpha)
 {
     return detail::sqrt(mu / (mu + alpha * (Real(1) - mu)));
 }
 
 /// x above of Beckmann; arguments as before.
 template <class Real>
-Real plain_cosine(Real mu, Real alpha)
+REGAIN_HOST_DEVICE Real plain_cosine(Real mu, Real alpha)
 {
     return mu / (mu + alpha * (Real(1) - mu));
 }
 
 /// x above of distributions with a tail; mu in [0, 1], alpha in (0, 1].
 template <class Real>
-Real tail_cosine(Real mu, Real alpha)
+REGAIN_HOST_DEVICE Real tail_cosine(Real mu, Real alpha)
 {
     const Real s = mu, c = detail::sqrt(detail::max((Real(1) - mu) * (Real(1) + mu), Real(0)));
     const Real k = detail::constant<Real>(0.004) * detail::sqrt(alpha), scale = Real(1) / (s + c);
@@ -63,11 +64,11 @@ struct TableView
     int width = 0, height = 0, depth = 1;
     float offset = 0, scale = 1.0f / 65535;
 
-    explicit operator bool() const { return data != nullptr; }
+    REGAIN_HOST_DEVICE explicit operator bool() const { return data != nullptr; }
 
     /// Value at x along the first axis, in [0, 1]; the table has one axis and is not empty.
     template <class Real>
-    Real at(Real x) const
+    REGAIN_HOST_DEVICE Real at(Real x) const
     {
         const Cell<Real> i(x, width);
         return value(row(i, 0));
@@ -75,7 +76,7 @@ struct TableView
 
     /// Value at (x, y), each in [0, 1]; the table has two axes and is not empty.
     template <class Real>
-    Real at(Real x, Real y) const
+    REGAIN_HOST_DEVICE Real at(Real x, Real y) const
     {
         const Cell<Real> i(x, width), j(y, height);
         return value(plane(i, j, j.low * width));
@@ -83,7 +84,7 @@ struct TableView
 
     /// Value at (x, y, z), each in [0, 1]; the table has three axes and is not empty.
     template <class Real>
-    Real at(Real x, Real y, Real z) const
+    REGAIN_HOST_DEVICE Real at(Real x, Real y, Real z) const
     {
         const Cell<Real> i(x, width), j(y, height), k(z, depth);
         const auto line = (k.low * height + j.low) * width;
@@ -96,7 +97,7 @@ private:
     template <class Real>
     struct Cell
     {
-        Cell(Real coordinate, int nodes)
+        REGAIN_HOST_DEVICE Cell(Real coordinate, int nodes)
         {
             using Number = NumberTraits<Real>;
             const Real at = coordinate * Real(static_cast<ScalarOf<Real>>(nodes - 1));
@@ -108,7 +109,7 @@ private:
     };
 
     template <class Real, class Line>
-    Real row(const Cell<Real>& i, Line line) const
+    REGAIN_HOST_DEVICE Real row(const Cell<Real>& i, Line line) const
     {
         using Number = NumberTraits<Real>;
         const Real a = Number::gather(data, line + i.low),
@@ -118,14 +119,14 @@ private:
 
     // Line is the index of the first node of the row below.
     template <class Real, class Line>
-    Real plane(const Cell<Real>& i, const Cell<Real>& j, const Line& line) const
+    REGAIN_HOST_DEVICE Real plane(const Cell<Real>& i, const Cell<Real>& j, const Line& line) const
     {
         const Real a = row(i, line), b = row(i, line + width);
         return a + (b - a) * j.fraction;
     }
 
     template <class Real>
-    Real value(Real stored) const
+    REGAIN_HOST_DEVICE Real value(Real stored) const
     {
         return detail::constant<Real>(offset) + detail::constant<Real>(scale) * stored;
     }
@@ -139,59 +140,64 @@ public:
     using Real = RealType;
 
     template <class Distribution>
-    explicit TableAxes(const Distribution& distribution)
+    REGAIN_HOST_DEVICE explicit TableAxes(const Distribution& distribution)
         : _alpha(distribution.effective_alpha()),
-          _width(detail::table_width_of<Distribution>(_alpha)),
-          _width_of(&detail::table_width_of<Distribution>),
+          _width_axis(detail::WidthAxisOf<Distribution>::value),
+          _width(width_of(_alpha)),
           _tail(detail::tail_of(distribution)),
           _has_tail(Distribution::has_tail),
           _cosine(detail::CosineAxisOf<Distribution>::value)
     {}
 
-    Real alpha() const { return _alpha; }
+    REGAIN_HOST_DEVICE Real alpha() const { return _alpha; }
     /// Coordinate of gamma along the third axis; 0 where there is none.
-    Real tail() const { return _tail; }
-    bool has_tail() const { return _has_tail; }
+    REGAIN_HOST_DEVICE Real tail() const { return _tail; }
+    REGAIN_HOST_DEVICE bool has_tail() const { return _has_tail; }
     /// Coordinate of a width in (0, 1] along the second axis.
-    Real width_of(Real alpha) const { return _width_of(alpha); }
+    REGAIN_HOST_DEVICE Real width_of(Real alpha) const
+    {
+        return _width_axis == WidthAxis::gtr   ? gtr_width(alpha)
+               : _width_axis == WidthAxis::std ? std_width(alpha)
+                                               : detail::sqrt(alpha);
+    }
 
     /// The same of another width, in (0, 1].
-    TableAxes of_alpha(Real alpha) const
+    REGAIN_HOST_DEVICE TableAxes of_alpha(Real alpha) const
     {
         TableAxes other = *this;
         other._alpha = alpha;
-        other._width = _width_of(alpha);
+        other._width = width_of(alpha);
         return other;
     }
 
     /// mu in [0, 1].
-    Real directional(const TableView& table, Real mu) const
+    REGAIN_HOST_DEVICE Real directional(const TableView& table, Real mu) const
     {
         const Real x = cosine(mu);
         return _has_tail ? table.at(x, _width, _tail) : table.at(x, _width);
     }
     /// Coordinate of mu in [0, 1] along the first axis.
-    Real cosine(Real mu) const
+    REGAIN_HOST_DEVICE Real cosine(Real mu) const
     {
         return _cosine == CosineAxis::tail    ? tail_cosine(mu, _alpha)
                : _cosine == CosineAxis::plain ? plain_cosine(mu, _alpha)
                                               : stretched_cosine(mu, _alpha);
     }
     /// Of what changes slowly, q_ms and mu_ms, the first axis is sqrt(mu); mu in [0, 1].
-    Real later(const TableView& table, Real mu) const
+    REGAIN_HOST_DEVICE Real later(const TableView& table, Real mu) const
     {
         const Real x = detail::sqrt(mu);
         return _has_tail ? table.at(x, _width, _tail) : table.at(x, _width);
     }
-    Real average(const TableView& table) const
+    REGAIN_HOST_DEVICE Real average(const TableView& table) const
     {
         return _has_tail ? table.at(_width, _tail) : table.at(_width);
     }
 
 private:
-    Real _alpha, _width;
-    Real (*_width_of)(Real);  // the second coordinate of a width
-    Real _tail;
+    Real _alpha;
+    WidthAxis _width_axis;
+    Real _width, _tail;
     bool _has_tail;
     CosineAxis _cosine;
 };
@@ -222,22 +228,22 @@ struct MicrofacetTables
     const GridView<5>* balance_anisotropy = nullptr;
 
     /// What can be asked below.
-    bool has_albedo() const { return fits || E_ss; }
-    bool has_average_albedo() const { return fits || E_avg; }
-    bool has_moments() const { return fits || (falloff && dip); }
-    bool has_later_bounces() const { return fits || (q_ms && mu_ms); }
-    bool has_later_shape() const { return fits || (spread && forward && tilt); }
+    REGAIN_HOST_DEVICE bool has_albedo() const { return fits || E_ss; }
+    REGAIN_HOST_DEVICE bool has_average_albedo() const { return fits || E_avg; }
+    REGAIN_HOST_DEVICE bool has_moments() const { return fits || (falloff && dip); }
+    REGAIN_HOST_DEVICE bool has_later_bounces() const { return fits || (q_ms && mu_ms); }
+    REGAIN_HOST_DEVICE bool has_later_shape() const { return fits || (spread && forward && tilt); }
 
     /// E_ss at the cosine mu in [0, 1], at most 1.
     template <class Real>
-    Real albedo(const TableAxes<Real>& axes, Real mu) const
+    REGAIN_HOST_DEVICE Real albedo(const TableAxes<Real>& axes, Real mu) const
     {
         if (fits) return fits->E_ss(mu, axes.alpha());
         return detail::min(value(axes.directional(E_ss, mu)), Real(1));
     }
     /// The Fresnel moments of what is scattered once, at the cosine mu in [0, 1].
     template <class Real>
-    FresnelMoments<Real> moments(const TableAxes<Real>& axes, Real mu) const
+    REGAIN_HOST_DEVICE FresnelMoments<Real> moments(const TableAxes<Real>& axes, Real mu) const
     {
         if (fits) return fits->moments(mu, axes.alpha());
         FresnelMoments<Real> m = FresnelMoments<Real>::at(mu);
@@ -246,41 +252,41 @@ struct MicrofacetTables
         return m;
     }
     template <class Real>
-    Real average_albedo(const TableAxes<Real>& axes) const
+    REGAIN_HOST_DEVICE Real average_albedo(const TableAxes<Real>& axes) const
     {
         return fits ? fits->E_avg(axes.alpha()) : value(axes.average(E_avg));
     }
     /// q_ms and mu_ms at the cosine mu in [0, 1].
     template <class Real>
-    Real later_share(const TableAxes<Real>& axes, Real mu) const
+    REGAIN_HOST_DEVICE Real later_share(const TableAxes<Real>& axes, Real mu) const
     {
         return fits ? fits->q_ms(mu, axes.alpha()) : axes.later(q_ms, mu);
     }
     template <class Real>
-    Real later_cosine(const TableAxes<Real>& axes, Real mu) const
+    REGAIN_HOST_DEVICE Real later_cosine(const TableAxes<Real>& axes, Real mu) const
     {
         return fits ? fits->mu_ms(mu, axes.alpha()) : axes.later(mu_ms, mu);
     }
     /// spread, forward and tilt.
     template <class Real>
-    Real later_spread(const TableAxes<Real>& axes) const
+    REGAIN_HOST_DEVICE Real later_spread(const TableAxes<Real>& axes) const
     {
         return fits ? fits->spread(axes.alpha()) : axes.average(spread);
     }
     template <class Real>
-    Real later_forward(const TableAxes<Real>& axes) const
+    REGAIN_HOST_DEVICE Real later_forward(const TableAxes<Real>& axes) const
     {
         return fits ? fits->forward(axes.alpha()) : axes.average(forward);
     }
     template <class Real>
-    Real later_tilt(const TableAxes<Real>& axes) const
+    REGAIN_HOST_DEVICE Real later_tilt(const TableAxes<Real>& axes) const
     {
         return fits ? fits->tilt(axes.alpha()) : axes.average(tilt);
     }
 
 private:
     template <class Real>
-    Real value(Real number) const
+    REGAIN_HOST_DEVICE Real value(Real number) const
     {
         return logarithmic ? detail::exp(number) : number;
     }

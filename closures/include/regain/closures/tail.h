@@ -31,14 +31,14 @@ constexpr double std_min_gamma = 1.51, std_max_gamma = 100;
 namespace detail {
 
 template <class Real>
-Real gtr_tail_position(const Real& gamma)
+REGAIN_HOST_DEVICE Real gtr_tail_position(const Real& gamma)
 {
     const Real t = (gamma - constant<Real>(1.25)) * Real(2);
     return constant<Real>(3.84) * gamma / (gamma + Real(3)) +
            constant<Real>(0.7) * t / sqrt(Real(1) + t * t);
 }
 template <class Real>
-Real std_tail_position(const Real& gamma)
+REGAIN_HOST_DEVICE Real std_tail_position(const Real& gamma)
 {
     const Real u = gamma - constant<Real>(1.5);
     return log(u / (u + Real(4)));
@@ -46,7 +46,7 @@ Real std_tail_position(const Real& gamma)
 
 /// A position that lies at `lowest` to `highest`, scaled to [0, 1].
 template <class Real>
-Real tail_coordinate(const Real& position, double lowest, double highest)
+REGAIN_HOST_DEVICE Real tail_coordinate(const Real& position, double lowest, double highest)
 {
     return saturate((position - constant<Real>(lowest)) * constant<Real>(1 / (highest - lowest)));
 }
@@ -66,7 +66,7 @@ constexpr double std_lowest_position = -5.9939614273065684,
 ///         most close to alpha 1
 ///   STD   0.8 ln(1 + 1000 alpha) / ln 1001 + 0.2 alpha
 template <class Real>
-Real gtr_width(const Real& alpha)
+REGAIN_HOST_DEVICE Real gtr_width(const Real& alpha)
 {
     const double scale = 0.5 / 6.9087547793152205;
     return detail::saturate(detail::constant<Real>(scale) *
@@ -74,7 +74,7 @@ Real gtr_width(const Real& alpha)
                             Real(0.5f) * alpha * alpha);
 }
 template <class Real>
-Real std_width(const Real& alpha)
+REGAIN_HOST_DEVICE Real std_width(const Real& alpha)
 {
     const double scale = 0.8 / 6.9087547793152205;
     return detail::saturate(detail::constant<Real>(scale) *
@@ -84,7 +84,7 @@ Real std_width(const Real& alpha)
 
 /// Coordinate of a GTR's gamma, 0 at gtr_min_gamma and 1 at gtr_max_gamma; NaN counts as 2.
 template <class Real>
-Real gtr_tail(const Real& gamma)
+REGAIN_HOST_DEVICE Real gtr_tail(const Real& gamma)
 {
     const Real g = detail::sanitised(gamma, gtr_min_gamma, gtr_max_gamma, 2);
     return detail::tail_coordinate(detail::gtr_tail_position(g), detail::gtr_lowest_position,
@@ -92,7 +92,7 @@ Real gtr_tail(const Real& gamma)
 }
 /// The inverse of gtr_tail, by bisection.
 template <class Real>
-Real gtr_gamma(const Real& coordinate)
+REGAIN_HOST_DEVICE Real gtr_gamma(const Real& coordinate)
 {
     using namespace detail;
     const Real wanted = saturate(coordinate);
@@ -109,7 +109,7 @@ Real gtr_gamma(const Real& coordinate)
 
 /// Coordinate of an STD's gamma, 0 at std_min_gamma and 1 at std_max_gamma; NaN counts as 2.
 template <class Real>
-Real std_tail(const Real& gamma)
+REGAIN_HOST_DEVICE Real std_tail(const Real& gamma)
 {
     const Real g = detail::sanitised(gamma, std_min_gamma, std_max_gamma, 2);
     return detail::tail_coordinate(detail::std_tail_position(g), detail::std_lowest_position,
@@ -117,7 +117,7 @@ Real std_tail(const Real& gamma)
 }
 /// The inverse of std_tail.
 template <class Real>
-Real std_gamma(const Real& coordinate)
+REGAIN_HOST_DEVICE Real std_gamma(const Real& coordinate)
 {
     using namespace detail;
     const Real position =

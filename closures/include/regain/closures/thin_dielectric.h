@@ -49,26 +49,33 @@ public:
     /// eta: index of the sheet over the index around it, in [1e-2, 1e2], clamped, NaN becomes 1.5.
     /// Tints in [0, 1] per channel, clamped, NaN becomes 0. `tables`, of this distribution, make
     /// albedo() faster.
-    ThinDielectric(const Distribution& distribution, Real eta, ScatterMode mode = ScatterMode::RT,
-                   const Color& reflection_tint = Color(Real(1)),
-                   const Color& transmission_tint = Color(Real(1)),
-                   const MicrofacetTables& tables = {})
+    REGAIN_HOST_DEVICE ThinDielectric(const Distribution& distribution, Real eta,
+                                      ScatterMode mode = ScatterMode::RT,
+                                      const Color& reflection_tint = Color(Real(1)),
+                                      const Color& transmission_tint = Color(Real(1)),
+                                      const MicrofacetTables& tables = {})
         : _interface(distribution, eta, mode, reflection_tint, transmission_tint),
           _mirror(distribution, ConstantFresnel<Real>(), tables)
     {}
 
-    const Distribution& distribution() const { return _mirror.distribution(); }
+    REGAIN_HOST_DEVICE const Distribution& distribution() const { return _mirror.distribution(); }
     /// The sheet as if both lobes were one: a rough mirror with F = 1.
-    const Mirror& mirror() const { return _mirror; }
-    Real eta() const { return _interface.eta(); }
-    ScatterMode scatter_mode() const { return _interface.scatter_mode(); }
-    const Color& reflection_tint() const { return _interface.reflection_tint(); }
-    const Color& transmission_tint() const { return _interface.transmission_tint(); }
+    REGAIN_HOST_DEVICE const Mirror& mirror() const { return _mirror; }
+    REGAIN_HOST_DEVICE Real eta() const { return _interface.eta(); }
+    REGAIN_HOST_DEVICE ScatterMode scatter_mode() const { return _interface.scatter_mode(); }
+    REGAIN_HOST_DEVICE const Color& reflection_tint() const { return _interface.reflection_tint(); }
+    REGAIN_HOST_DEVICE const Color& transmission_tint() const
+    {
+        return _interface.transmission_tint();
+    }
 
-    const MicrofacetTables& tables() const { return _mirror.tables(); }
-    void set_tables(const MicrofacetTables& tables) { _mirror.set_tables(tables); }
+    REGAIN_HOST_DEVICE const MicrofacetTables& tables() const { return _mirror.tables(); }
+    REGAIN_HOST_DEVICE void set_tables(const MicrofacetTables& tables)
+    {
+        _mirror.set_tables(tables);
+    }
 
-    Traits traits() const
+    REGAIN_HOST_DEVICE Traits traits() const
     {
         Traits t = _interface.traits();
         t.random_numbers = random_numbers;
@@ -79,7 +86,7 @@ public:
     class Prepared
     {
     public:
-        Prepared(const ThinDielectric& sheet, const Vec3<Real>& wo)
+        REGAIN_HOST_DEVICE Prepared(const ThinDielectric& sheet, const Vec3<Real>& wo)
             : _mode(sheet.scatter_mode()),
               _fresnel(sheet.eta()),
               _clear(sheet._interface.transmits_delta()),
@@ -90,22 +97,22 @@ public:
               _transmission(sheet.transmission_tint())
         {}
 
-        Vec3<Real> wo() const { return turned(_mirror.wo()); }
+        REGAIN_HOST_DEVICE Vec3<Real> wo() const { return turned(_mirror.wo()); }
 
-        void scale_by(const Color& weight)
+        REGAIN_HOST_DEVICE void scale_by(const Color& weight)
         {
             _reflection *= weight;
             _transmission *= weight;
         }
 
-        Color eval(const Vec3<Real>& wi) const
+        REGAIN_HOST_DEVICE Color eval(const Vec3<Real>& wi) const
         {
             const Terms t = terms(wi);
             return t.tint * (_mirror.eval(t.wi).x * t.choice * t.passed);
         }
 
         /// u.x, u.y: the normal; u.z: reflection where it is below the facet's R'.
-        Sample<Real> sample(const Vec3<Real>& u) const
+        REGAIN_HOST_DEVICE Sample<Real> sample(const Vec3<Real>& u) const
         {
             const Sample<Real> m = _mirror.sample(normal_numbers(u));
             const Real R = reflectance(m.wi);
@@ -136,13 +143,13 @@ public:
             return s;
         }
 
-        Real pdf(const Vec3<Real>& wi) const
+        REGAIN_HOST_DEVICE Real pdf(const Vec3<Real>& wi) const
         {
             const Terms t = terms(wi);
             return _mirror.pdf(t.wi) * t.choice;
         }
 
-        Albedo<Real> albedo() const
+        REGAIN_HOST_DEVICE Albedo<Real> albedo() const
         {
             // The share that is reflected by the mirror's own facets, and all of it by its table.
             const bool tabulated = _tables.has_albedo();
@@ -172,7 +179,7 @@ public:
             Color tint;
         };
 
-        Terms terms(const Vec3<Real>& direction) const
+        REGAIN_HOST_DEVICE Terms terms(const Vec3<Real>& direction) const
         {
             const Vec3<Real> w = turned(direction);
             const Mask known = detail::is_off_horizon(w);
@@ -192,22 +199,26 @@ public:
             return t;
         }
 
-        static Real sheet_reflectance(const typename DielectricFresnel<Real>::Split& F)
+        REGAIN_HOST_DEVICE static Real sheet_reflectance(
+            const typename DielectricFresnel<Real>::Split& F)
         {
             return Real(2) * F.reflectance / (Real(1) + F.reflectance);
         }
         // R' of the facet that reflects wo into wi.
-        Real reflectance(const Vec3<Real>& wi) const
+        REGAIN_HOST_DEVICE Real reflectance(const Vec3<Real>& wi) const
         {
             const Vec3<Real> h = detail::half_vector(_mirror.wo(), wi);
             return sheet_reflectance(
                 _fresnel.split(detail::min(Real(0.5f) * detail::sqrt(detail::dot(h, h)), Real(1))));
         }
 
-        Vec3<Real> turned(const Vec3<Real>& w) const { return {w.x, w.y, w.z * _side}; }
+        REGAIN_HOST_DEVICE Vec3<Real> turned(const Vec3<Real>& w) const
+        {
+            return {w.x, w.y, w.z * _side};
+        }
 
         // The third number of the normal has to be independent of the choice of the lobe.
-        Vec3<Real> normal_numbers(const Vec3<Real>& u) const
+        REGAIN_HOST_DEVICE Vec3<Real> normal_numbers(const Vec3<Real>& u) const
         {
             if constexpr (Distribution::random_numbers > 2)
                 if (_mode == ScatterMode::RT) return {u.x, u.y, RandomStream<Real>(u).next()};
@@ -223,7 +234,7 @@ public:
         Color _reflection, _transmission;  // what multiplies the lobes
     };
 
-    Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
+    REGAIN_HOST_DEVICE Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
 
 private:
     Dielectric<Distribution> _interface;
@@ -239,22 +250,28 @@ class ThinDielectricGain
 public:
     using Real = RealType;
 
-    static constexpr bool supports(Method method) { return DielectricGain<Real>::supports(method); }
+    REGAIN_HOST_DEVICE static constexpr bool supports(Method method)
+    {
+        return DielectricGain<Real>::supports(method);
+    }
 
     template <class Distribution>
-    ThinDielectricGain(const ThinDielectric<Distribution>& sheet, Method method,
-                       const MicrofacetTables& tables, Real strength)
+    REGAIN_HOST_DEVICE ThinDielectricGain(const ThinDielectric<Distribution>& sheet, Method method,
+                                          const MicrofacetTables& tables, Real strength)
         : _gain(sheet.mirror(),
                 supports(method) && method != Method::none ? Method::normalise : Method::none,
                 tables, strength),
           _whole(sheet.scatter_mode() == ScatterMode::RT)
     {}
 
-    Color3<Real> at(const Vec3<Real>& wo) const
+    REGAIN_HOST_DEVICE Color3<Real> at(const Vec3<Real>& wo) const
     {
         return _gain.at({wo.x, wo.y, detail::abs(wo.z)});
     }
-    bool energy_preserving() const { return _whole && _gain.energy_preserving(); }
+    REGAIN_HOST_DEVICE bool energy_preserving() const
+    {
+        return _whole && _gain.energy_preserving();
+    }
 
 private:
     MethodGain<Real> _gain;
@@ -264,9 +281,10 @@ private:
 /// The sheet compensated at strength s in [0, 1]. The tables serve its gain and, unless the sheet
 /// has its own, its albedo.
 template <class Distribution>
-Compensated<ThinDielectric<Distribution>, ThinDielectricGain<typename Distribution::Real>>
-compensated(ThinDielectric<Distribution> sheet, Method method, const MicrofacetTables& tables,
-            typename Distribution::Real strength = typename Distribution::Real(1))
+REGAIN_HOST_DEVICE
+    Compensated<ThinDielectric<Distribution>, ThinDielectricGain<typename Distribution::Real>>
+    compensated(ThinDielectric<Distribution> sheet, Method method, const MicrofacetTables& tables,
+                typename Distribution::Real strength = typename Distribution::Real(1))
 {
     if (!sheet.tables().has_albedo()) sheet.set_tables(tables);
     return {sheet,

@@ -23,11 +23,11 @@ public:
     static constexpr bool is_diffuse = true;
 
     /// Colour in [0, 1] per channel; outside it is clamped, NaN becomes 0.
-    explicit Translucent(const Color& color) : _diffuse(color) {}
+    REGAIN_HOST_DEVICE explicit Translucent(const Color& color) : _diffuse(color) {}
 
-    const Color& color() const { return _diffuse.color(); }
+    REGAIN_HOST_DEVICE const Color& color() const { return _diffuse.color(); }
 
-    Traits traits() const
+    REGAIN_HOST_DEVICE Traits traits() const
     {
         Traits t = _diffuse.traits();
         t.transmissive = true;
@@ -37,24 +37,27 @@ public:
     class Prepared
     {
     public:
-        Prepared(const Translucent& closure, const Vec3<Real>& wo)
+        REGAIN_HOST_DEVICE Prepared(const Translucent& closure, const Vec3<Real>& wo)
             : _above(closure._diffuse, mirrored(wo, detail::quiet_less(wo.z, Real(0)))),
               _below(detail::quiet_less(wo.z, Real(0)))
         {
             _wo = mirrored(_above.wo(), _below);
         }
 
-        const Vec3<Real>& wo() const { return _wo; }
-        void scale_by(const Color& weight) { _above.scale_by(weight); }
+        REGAIN_HOST_DEVICE const Vec3<Real>& wo() const { return _wo; }
+        REGAIN_HOST_DEVICE void scale_by(const Color& weight) { _above.scale_by(weight); }
 
-        Color eval(const Vec3<Real>& wi) const { return _above.eval(opposite(wi)); }
-        Real pdf(const Vec3<Real>& wi) const { return _above.pdf(opposite(wi)); }
+        REGAIN_HOST_DEVICE Color eval(const Vec3<Real>& wi) const
+        {
+            return _above.eval(opposite(wi));
+        }
+        REGAIN_HOST_DEVICE Real pdf(const Vec3<Real>& wi) const { return _above.pdf(opposite(wi)); }
 
-        Sample<Real> sample(const Vec2<Real>& u) const
+        REGAIN_HOST_DEVICE Sample<Real> sample(const Vec2<Real>& u) const
         {
             return sample(detail::two_numbers<Translucent>(u));
         }
-        Sample<Real> sample(const Vec3<Real>& u) const
+        REGAIN_HOST_DEVICE Sample<Real> sample(const Vec3<Real>& u) const
         {
             Sample<Real> s = _above.sample(u);
             s.transmitted = s.valid;
@@ -62,22 +65,28 @@ public:
             return s;
         }
 
-        Albedo<Real> albedo() const { return {Color(Real(0)), _above.albedo().reflect}; }
+        REGAIN_HOST_DEVICE Albedo<Real> albedo() const
+        {
+            return {Color(Real(0)), _above.albedo().reflect};
+        }
 
     private:
-        static Vec3<Real> mirrored(const Vec3<Real>& w, const Mask& below)
+        REGAIN_HOST_DEVICE static Vec3<Real> mirrored(const Vec3<Real>& w, const Mask& below)
         {
             return {w.x, w.y, detail::select(below, -w.z, w.z)};
         }
         // Of a direction on the other side than wo, one above the horizon; and back.
-        Vec3<Real> opposite(const Vec3<Real>& w) const { return mirrored(w, !_below); }
+        REGAIN_HOST_DEVICE Vec3<Real> opposite(const Vec3<Real>& w) const
+        {
+            return mirrored(w, !_below);
+        }
 
         typename Diffuse<Real>::Prepared _above;
         Mask _below;
         Vec3<Real> _wo;
     };
 
-    Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
+    REGAIN_HOST_DEVICE Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
 
 private:
     Diffuse<Real> _diffuse;

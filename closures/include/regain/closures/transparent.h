@@ -22,13 +22,13 @@ public:
     static constexpr bool passes_straight = true;  ///< nothing of it has a density
 
     /// Colour in [0, 1] per channel; outside it is clamped, NaN becomes 0.
-    explicit Transparent(const Color& color = Color(Real(1)))
+    REGAIN_HOST_DEVICE explicit Transparent(const Color& color = Color(Real(1)))
         : _color(detail::per_channel(color, [](Real v) { return detail::saturate(v); }))
     {}
 
-    const Color& color() const { return _color; }
+    REGAIN_HOST_DEVICE const Color& color() const { return _color; }
 
-    Traits traits() const
+    REGAIN_HOST_DEVICE Traits traits() const
     {
         Traits t;
         t.reciprocal = t.energy_preserving = t.exact_pdf = true;
@@ -40,7 +40,7 @@ public:
     class Prepared
     {
     public:
-        Prepared(const Transparent& closure, const Vec3<Real>& wo)
+        REGAIN_HOST_DEVICE Prepared(const Transparent& closure, const Vec3<Real>& wo)
             : _valid(detail::both<Real>(
                   detail::is_direction(wo),
                   detail::quiet_less(detail::constant<Real>(detail::horizon), detail::abs(wo.z)))),
@@ -49,19 +49,19 @@ public:
               _weight(detail::select(_valid, closure._color, Color(Real(0))))
         {}
 
-        const Vec3<Real>& wo() const { return _wo; }
-        void scale_by(const Color& weight) { _weight *= weight; }
+        REGAIN_HOST_DEVICE const Vec3<Real>& wo() const { return _wo; }
+        REGAIN_HOST_DEVICE void scale_by(const Color& weight) { _weight *= weight; }
 
-        Color eval(const Vec3<Real>&) const { return Color(Real(0)); }
-        Real pdf(const Vec3<Real>&) const { return Real(0); }
+        REGAIN_HOST_DEVICE Color eval(const Vec3<Real>&) const { return Color(Real(0)); }
+        REGAIN_HOST_DEVICE Real pdf(const Vec3<Real>&) const { return Real(0); }
 
-        Sample<Real> sample(const Vec2<Real>&) const { return sample(); }
-        Sample<Real> sample(const Vec3<Real>&) const { return sample(); }
+        REGAIN_HOST_DEVICE Sample<Real> sample(const Vec2<Real>&) const { return sample(); }
+        REGAIN_HOST_DEVICE Sample<Real> sample(const Vec3<Real>&) const { return sample(); }
 
-        Albedo<Real> albedo() const { return {Color(Real(0)), _weight}; }
+        REGAIN_HOST_DEVICE Albedo<Real> albedo() const { return {Color(Real(0)), _weight}; }
 
     private:
-        Sample<Real> sample() const
+        REGAIN_HOST_DEVICE Sample<Real> sample() const
         {
             Sample<Real> s;
             s.valid = s.delta = s.transmitted = _valid;
@@ -76,7 +76,7 @@ public:
         Color _weight;
     };
 
-    Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
+    REGAIN_HOST_DEVICE Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
 
 private:
     Color _color;

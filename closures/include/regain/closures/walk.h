@@ -60,22 +60,22 @@ public:
 
     /// eval_samples: walks that an eval takes, at least 1. `tables` sharpen the pdf and make
     /// albedo() a look-up.
-    Walk(const Distribution& distribution, const Fresnel& fresnel, int eval_samples = 1,
-         const MicrofacetTables& tables = {})
+    REGAIN_HOST_DEVICE Walk(const Distribution& distribution, const Fresnel& fresnel,
+                            int eval_samples = 1, const MicrofacetTables& tables = {})
         : _distribution(distribution),
           _fresnel(fresnel),
           _tables(tables),
           _eval_samples(eval_samples < 1 ? 1 : eval_samples)
     {}
 
-    const Distribution& distribution() const { return _distribution; }
-    const Fresnel& fresnel() const { return _fresnel; }
-    int eval_samples() const { return _eval_samples; }
+    REGAIN_HOST_DEVICE const Distribution& distribution() const { return _distribution; }
+    REGAIN_HOST_DEVICE const Fresnel& fresnel() const { return _fresnel; }
+    REGAIN_HOST_DEVICE int eval_samples() const { return _eval_samples; }
 
-    const MicrofacetTables& tables() const { return _tables; }
-    void set_tables(const MicrofacetTables& tables) { _tables = tables; }
+    REGAIN_HOST_DEVICE const MicrofacetTables& tables() const { return _tables; }
+    REGAIN_HOST_DEVICE void set_tables(const MicrofacetTables& tables) { _tables = tables; }
 
-    Traits traits() const
+    REGAIN_HOST_DEVICE Traits traits() const
     {
         Traits t;
         t.reciprocal = true;
@@ -90,7 +90,7 @@ public:
     class Prepared
     {
     public:
-        Prepared(const Walk& closure, const Vec3<Real>& wo)
+        REGAIN_HOST_DEVICE Prepared(const Walk& closure, const Vec3<Real>& wo)
             : _closure(closure),
               _delta(closure._distribution.is_delta()),
               _valid(detail::is_above_horizon(wo)),
@@ -108,14 +108,14 @@ public:
             _narrowing = closure._distribution.alpha_x() * _wo.z;
         }
 
-        const Vec3<Real>& wo() const { return _wo; }
+        REGAIN_HOST_DEVICE const Vec3<Real>& wo() const { return _wo; }
 
         /// Multiplies the closure weight: all that eval, sample and albedo return, and no direction
         /// or pdf.
-        void scale_by(const Color& weight) { _weight *= weight; }
+        REGAIN_HOST_DEVICE void scale_by(const Color& weight) { _weight *= weight; }
 
         /// An unbiased estimate; u in [0, 1)^3.
-        Color eval(const Vec3<Real>& direction, const Vec3<Real>& u) const
+        REGAIN_HOST_DEVICE Color eval(const Vec3<Real>& direction, const Vec3<Real>& u) const
         {
             const Distribution& distribution = _closure._distribution;
             const Vec3<Real> wi = safe(direction);
@@ -135,7 +135,7 @@ public:
         }
 
         /// u in [0, 1)^3. The weight is not eval / pdf: see above.
-        Sample<Real> sample(const Vec3<Real>& u) const
+        REGAIN_HOST_DEVICE Sample<Real> sample(const Vec3<Real>& u) const
         {
             const WalkPath<Real> p = path(u);
             Sample<Real> s;
@@ -148,14 +148,14 @@ public:
             return s;
         }
 
-        Real pdf(const Vec3<Real>& wi) const
+        REGAIN_HOST_DEVICE Real pdf(const Vec3<Real>& wi) const
         {
             return detail::select(answers(wi), density(safe(wi)), Real(0));
         }
 
         /// With E_ss, E_avg and the moments' tables, what the compensation method `series` says:
         /// exact for F = 1, within 0.05 otherwise. Without tables, the mean weight of 1024 walks.
-        Albedo<Real> albedo() const
+        REGAIN_HOST_DEVICE Albedo<Real> albedo() const
         {
             const MicrofacetTables& t = _closure._tables;
             if (!(t.has_albedo() && t.has_average_albedo() && t.has_moments()))
@@ -168,7 +168,7 @@ public:
         }
 
         /// One walk, with what sample does not tell.
-        WalkPath<Real> path(const Vec3<Real>& u) const
+        REGAIN_HOST_DEVICE WalkPath<Real> path(const Vec3<Real>& u) const
         {
             return trace<true>(u, [](const auto&...) {});
         }
@@ -177,23 +177,23 @@ public:
         using Depth = detail::WalkDepth<Real>;
         using Visible = decltype(std::declval<const Distribution&>().visible(Vec3<Real>()));
 
-        Mask answers(const Vec3<Real>& wi) const
+        REGAIN_HOST_DEVICE Mask answers(const Vec3<Real>& wi) const
         {
             return detail::both<Real>(_valid & !_delta, detail::is_above_horizon(wi));
         }
-        static Vec3<Real> safe(const Vec3<Real>& wi)
+        REGAIN_HOST_DEVICE static Vec3<Real> safe(const Vec3<Real>& wi)
         {
             return detail::select(detail::is_above_horizon(wi), wi,
                                   Vec3<Real>(Real(0), Real(0), Real(1)));
         }
-        Depth start() const { return Depth(_wo.z, _visible.projected_area()); }
+        REGAIN_HOST_DEVICE Depth start() const { return Depth(_wo.z, _visible.projected_area()); }
 
         // From wo to where the walk leaves; or, if it may not leave at the first bounce, with that
         // taken off its weight, which halves the variance of eval. join(v, sigma(v), weight, depth)
         // is called at each facet but the first, before it scatters; v points against the ray that
         // arrives.
         template <bool leaves_at_once, class Join>
-        WalkPath<Real> trace(const Vec3<Real>& u, const Join& join) const
+        REGAIN_HOST_DEVICE WalkPath<Real> trace(const Vec3<Real>& u, const Join& join) const
         {
             const Distribution& distribution = _closure._distribution;
             constexpr bool three = Distribution::random_numbers > 2;
@@ -248,11 +248,12 @@ public:
             return finished(p, d, active);
         }
 
-        static Real clamped(const Real& cosine)
+        REGAIN_HOST_DEVICE static Real clamped(const Real& cosine)
         {
             return detail::min(detail::max(cosine, Real(0)), Real(1));
         }
-        static WalkPath<Real> finished(WalkPath<Real> p, const Vec3<Real>& d, const Mask& active)
+        REGAIN_HOST_DEVICE static WalkPath<Real> finished(WalkPath<Real> p, const Vec3<Real>& d,
+                                                          const Mask& active)
         {
             p.wi = detail::normalised(d);  // what the bounces have rounded off
             p.escaped = !active;
@@ -261,7 +262,7 @@ public:
         }
 
         // Near the density of sample, per steradian; wi.z > 0.
-        Real density(const Vec3<Real>& wi) const
+        REGAIN_HOST_DEVICE Real density(const Vec3<Real>& wi) const
         {
             const Distribution& distribution = _closure._distribution;
             const Real area = _visible.projected_area();
@@ -290,10 +291,10 @@ public:
         Real _rest = Real(0), _narrowing = Real(0);
     };
 
-    Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
+    REGAIN_HOST_DEVICE Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
 
 private:
-    bool isotropic() const
+    REGAIN_HOST_DEVICE bool isotropic() const
     {
         return detail::all<Real>(_distribution.alpha_x() == _distribution.alpha_y());
     }

@@ -18,10 +18,9 @@ namespace detail {
 ///   4 cos theta_i n(2 cos theta_i (wi_x, wi_y, -wi_z) + z)
 /// which integrates to 1 - E_ss exactly, for any distribution. area = sigma(wo).
 template <class Distribution>
-typename Distribution::Real carried_density(const Distribution& distribution,
-                                            const Vec3<typename Distribution::Real>& wo,
-                                            const typename Distribution::Real& area,
-                                            const Vec3<typename Distribution::Real>& wi)
+REGAIN_HOST_DEVICE typename Distribution::Real carried_density(
+    const Distribution& distribution, const Vec3<typename Distribution::Real>& wo,
+    const typename Distribution::Real& area, const Vec3<typename Distribution::Real>& wi)
 {
     using Real = typename Distribution::Real;
     const Real slope = Real(2) * wi.z;
@@ -41,7 +40,7 @@ struct ForwardNormal
     Real value, least;  ///< 2 pi N, and that at phi = pi
 
     /// k >= 1e-6 in rad^2; wo and wi on whatever side.
-    ForwardNormal(const Real& k, const Vec3<Real>& wo, const Vec3<Real>& wi)
+    REGAIN_HOST_DEVICE ForwardNormal(const Real& k, const Vec3<Real>& wo, const Vec3<Real>& wi)
     {
         const Real tiny = constant<Real>(1e-30), one(1);
         const Real s = detail::sqrt((wo.x * wo.x + wo.y * wo.y) * (wi.x * wi.x + wi.y * wi.y)),
@@ -68,7 +67,7 @@ public:
     /// Any way.
     ForwardAzimuth() = default;
     /// As `tables` have it of a distribution; any way where they do not.
-    ForwardAzimuth(const MicrofacetTables& tables, const TableAxes<Real>& axes)
+    REGAIN_HOST_DEVICE ForwardAzimuth(const MicrofacetTables& tables, const TableAxes<Real>& axes)
     {
         if (!tables.has_later_shape()) return;
         const Real root = tables.later_spread(axes);
@@ -77,7 +76,7 @@ public:
     }
 
     /// 2 pi Phi; wo and wi on whatever side.
-    Real relative_density(const Vec3<Real>& wo, const Vec3<Real>& wi) const
+    REGAIN_HOST_DEVICE Real relative_density(const Vec3<Real>& wo, const Vec3<Real>& wi) const
     {
         return Real(1) + _m * (ForwardNormal<Real>(_k, wo, wi).value - Real(1));
     }
@@ -98,7 +97,8 @@ public:
 
     /// Of `tables` it needs E_ss and E_avg; without spread and forward Phi is uniform.
     template <class Distribution>
-    LaterDensity(const Distribution& distribution, const MicrofacetTables& tables)
+    REGAIN_HOST_DEVICE LaterDensity(const Distribution& distribution,
+                                    const MicrofacetTables& tables)
         : _tables(tables), _axes(distribution)
     {
         if (!bound()) return;
@@ -108,14 +108,20 @@ public:
         _azimuth = ForwardAzimuth<Real>(tables, _axes);
     }
 
-    bool bound() const { return _tables.has_albedo() && _tables.has_average_albedo(); }
-    const MicrofacetTables& tables() const { return _tables; }
+    REGAIN_HOST_DEVICE bool bound() const
+    {
+        return _tables.has_albedo() && _tables.has_average_albedo();
+    }
+    REGAIN_HOST_DEVICE const MicrofacetTables& tables() const { return _tables; }
 
     /// 1 - E_ss(mu).
-    Real lost(const Real& mu) const { return Real(1) - _tables.albedo(_axes, min(mu, Real(1))); }
+    REGAIN_HOST_DEVICE Real lost(const Real& mu) const
+    {
+        return Real(1) - _tables.albedo(_axes, min(mu, Real(1)));
+    }
 
     /// Per steradian; integrates to 1.
-    Real at(const Vec3<Real>& wo, const Vec3<Real>& wi) const
+    REGAIN_HOST_DEVICE Real at(const Vec3<Real>& wo, const Vec3<Real>& wi) const
     {
         const Real lobe = lost(wi.z) * _scale * _azimuth.relative_density(wo, wi);
         return wi.z * (lobe + constant<Real>(even * 0.318309886183790671538));

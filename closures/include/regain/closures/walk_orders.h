@@ -20,7 +20,7 @@ struct WalkOrders
     Albedo<Real> rest;            ///< of more than `tracked` bounces
     Real mean_bounces;            ///< of all walks, whatever they weigh
 
-    Albedo<Real> total() const
+    REGAIN_HOST_DEVICE Albedo<Real> total() const
     {
         Albedo<Real> sum = rest;
         for (const Albedo<Real>& a : order)
@@ -36,7 +36,7 @@ struct WalkOrders
 /// of an order that is p of the whole is at most sqrt(p (1 - p) / walks): the numbers of the first
 /// bounce are spread evenly. `seed` selects other walks.
 template <class Prepared>
-auto walk_orders(const Prepared& prepared, int walks, std::uint32_t seed = 0)
+REGAIN_HOST_DEVICE auto walk_orders(const Prepared& prepared, int walks, std::uint32_t seed = 0)
 {
     using Real = typename std::decay_t<decltype(prepared.wo())>::BaseType;
     using Scalar = ScalarOf<Real>;

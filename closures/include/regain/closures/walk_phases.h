@@ -35,10 +35,13 @@ public:
     using Mask = MaskOf<Real>;
 
     /// At the first facet that a ray meets; z and area of what is against it.
-    WalkPhases(const Real& z, const Real& area) : _size(Real(1)), _most(1) { _rate[0] = area / z; }
+    REGAIN_HOST_DEVICE WalkPhases(const Real& z, const Real& area) : _size(Real(1)), _most(1)
+    {
+        _rate[0] = area / z;
+    }
 
     /// Probability that a ray from here leaves upwards.
-    Real escape_probability(const Real& z, const Real& area) const
+    REGAIN_HOST_DEVICE Real escape_probability(const Real& z, const Real& area) const
     {
         Real p(1);
         for (int j = 0; j < _most; ++j)
@@ -51,7 +54,7 @@ public:
     }
 
     /// Probability that it does not, which keeps its digits where it is small.
-    Real stay_probability(const Real& z, const Real& area) const
+    REGAIN_HOST_DEVICE Real stay_probability(const Real& z, const Real& area) const
     {
         Real p(0);
         for (int j = _most - 1; j >= 0; --j) p += met(j, z, area) * (Real(1) - p);
@@ -60,7 +63,7 @@ public:
 
     /// The ray goes up in these lanes and meets a facet where u is below stay_probability; returns
     /// where it does not, and has left.
-    Mask rise(const Real& z, const Real& area, const Real& u, const Mask& lanes)
+    REGAIN_HOST_DEVICE Mask rise(const Real& z, const Real& area, const Real& u, const Mask& lanes)
     {
         Mask going = lanes;
         Real p(0);
@@ -75,7 +78,7 @@ public:
     }
 
     /// The ray goes down in these lanes, to the next facet. No more than `capacity` - 1 times.
-    void sink(const Real& z, const Real& area, const Mask& lanes)
+    REGAIN_HOST_DEVICE void sink(const Real& z, const Real& area, const Mask& lanes)
     {
         if (_most == capacity || !any<Real>(lanes)) return;
         const Real rate = area / z;
@@ -88,10 +91,13 @@ public:
 
 private:
     // Whether there is a phase j. Those beyond the last are never read before they are set.
-    Mask reaches(int j) const { return _size > Real(static_cast<ScalarOf<Real>>(j)); }
+    REGAIN_HOST_DEVICE Mask reaches(int j) const
+    {
+        return _size > Real(static_cast<ScalarOf<Real>>(j));
+    }
 
     // Probability of a facet in phase j, 0 where there is none.
-    Real met(int j, const Real& z, const Real& area) const
+    REGAIN_HOST_DEVICE Real met(int j, const Real& z, const Real& area) const
     {
         return select(reaches(j), area / (_rate[j] * z + area), Real(0));
     }

@@ -29,20 +29,21 @@ public:
     static constexpr int random_numbers = 2;
     static constexpr bool is_diffuse = false;
 
-    ZeltnerModel(const Color& color, Real roughness)
+    REGAIN_HOST_DEVICE ZeltnerModel(const Color& color, Real roughness)
         : _color(per_channel(color, [](Real v) { return saturate(v); })),
           _r(sanitised(roughness, least_roughness, 1, 0.3))
     {}
 
-    const Color& color() const { return _color; }
-    Real roughness() const { return _r; }
+    REGAIN_HOST_DEVICE const Color& color() const { return _color; }
+    REGAIN_HOST_DEVICE Real roughness() const { return _r; }
 
-    void describe(Traits&) const {}
+    REGAIN_HOST_DEVICE void describe(Traits&) const {}
 
     class View
     {
     public:
-        View(const ZeltnerModel& model, const Vec3<Real>& wo) : _color(model._color), _frame(wo)
+        REGAIN_HOST_DEVICE View(const ZeltnerModel& model, const Vec3<Real>& wo)
+            : _color(model._color), _frame(wo)
         {
             const auto k = [](double x) { return constant<Real>(x); };
             const Real x = min(wo.z, Real(1)), y = model._r, y2 = y * y;
@@ -62,7 +63,7 @@ public:
             _R = saturate(detail::exp(Real(-0.5f) * d * d) / s * k(0.39894228040143267794) + o);
         }
 
-        ReflectionTerms<Real> terms(const Vec3<Real>& direction) const
+        REGAIN_HOST_DEVICE ReflectionTerms<Real> terms(const Vec3<Real>& direction) const
         {
             const Vec3<Real> wi = _frame.to(direction);
             const Real x = _a * wi.x + _b * wi.z, y = _a * wi.y;
@@ -72,14 +73,14 @@ public:
             return {_color * (_R * density), density};
         }
 
-        Vec3<Real> draw(const Vec3<Real>& u) const
+        REGAIN_HOST_DEVICE Vec3<Real> draw(const Vec3<Real>& u) const
         {
             const Vec3<Real> v = cosine_direction(u.x, u.y);
             const Vec3<Real> wi(v.x - _b * v.z, v.y, _a * v.z);
             return _frame.from(normalised(wi));
         }
 
-        Color albedo() const { return _color * _R; }
+        REGAIN_HOST_DEVICE Color albedo() const { return _color * _R; }
 
     private:
         Color _color;
@@ -103,12 +104,13 @@ class ZeltnerSheen : public SmoothReflection<detail::ZeltnerModel<Real>>
 public:
     /// color in [0, 1] per channel, clamped, NaN becomes 0. roughness in [0.01, 1], clamped, NaN
     /// becomes 0.3.
-    explicit ZeltnerSheen(const Color3<Real>& color, Real roughness = detail::constant<Real>(0.3))
+    REGAIN_HOST_DEVICE explicit ZeltnerSheen(const Color3<Real>& color,
+                                             Real roughness = detail::constant<Real>(0.3))
         : SmoothReflection<detail::ZeltnerModel<Real>>(detail::ZeltnerModel<Real>(color, roughness))
     {}
 
-    const Color3<Real>& color() const { return this->model().color(); }
-    Real roughness() const { return this->model().roughness(); }
+    REGAIN_HOST_DEVICE const Color3<Real>& color() const { return this->model().color(); }
+    REGAIN_HOST_DEVICE Real roughness() const { return this->model().roughness(); }
 };
 
 REGAIN_NAMESPACE_END

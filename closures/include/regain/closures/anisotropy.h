@@ -200,7 +200,7 @@ public:
     }
 
     /// E_ss of a direction as for place(), at most 1; the table is there.
-    REGAIN_HOST_DEVICE Real albedo(const MicrofacetTables& tables, const Vec3<Real>& w) const
+    REGAIN_HOST_DEVICE Real albedo(const LossTables& tables, const Vec3<Real>& w) const
     {
         if (_isotropic) return tables.albedo(*this, w.z);
         if (tables.anisotropy) return corrected_albedo(tables, w);
@@ -236,7 +236,7 @@ private:
     static constexpr double longest_tail = 1 / 0.7;
 
     // By the table `anisotropy`.
-    REGAIN_HOST_DEVICE Real corrected_albedo(const MicrofacetTables& tables,
+    REGAIN_HOST_DEVICE Real corrected_albedo(const LossTables& tables,
                                              const Vec3<Real>& w) const
     {
         const Real X = _x * w.x, Y = _y * w.y, X2 = X * X, Y2 = Y * Y, tangential = X2 + Y2;

@@ -36,7 +36,7 @@ public:
           _k(detail::per_channel(k, [](Real v) { return detail::sanitised(v, 0, 1e4, 0); }))
     {}
 
-    REGAIN_HOST_DEVICE Color at(Real mu) const
+    REGAIN_INLINE Color at(Real mu) const
     {
         return {channel(_n.x, _k.x, mu), channel(_n.y, _k.y, mu), channel(_n.z, _k.z, mu)};
     }
@@ -70,7 +70,7 @@ private:
                                      detail::min(critical, detail::constant<Real>(0.9999)));
     }
 
-    REGAIN_HOST_DEVICE static Real channel(Real n, Real k, Real mu)
+    REGAIN_INLINE static Real channel(Real n, Real k, Real mu)
     {
         // Keeps 0 / 0 out where n = 0, and where n = 1, k = 0 meets grazing incidence.
         const Real tiny = detail::constant<Real>(1e-30);

@@ -70,7 +70,7 @@ public:
         const Color& reflection_tint = Color(Real(1)),
         const Color& transmission_tint = Color(Real(1)),
         TransmissionShadowing shadowing = TransmissionShadowing::correlated,
-        const DielectricTables& tables = {})
+        const DielectricAlbedoTables& tables = {})
         : _distribution(distribution),
           _eta(RelativeIndex<Real>::of(eta)),
           _reflection_tint(
@@ -89,8 +89,8 @@ public:
     REGAIN_HOST_DEVICE const Color& transmission_tint() const { return _transmission_tint; }
     REGAIN_HOST_DEVICE TransmissionShadowing transmission_shadowing() const { return _shadowing; }
 
-    REGAIN_HOST_DEVICE const DielectricTables& tables() const { return _tables; }
-    REGAIN_HOST_DEVICE void set_tables(const DielectricTables& tables) { _tables = tables; }
+    REGAIN_HOST_DEVICE const DielectricAlbedoTables& tables() const { return _tables; }
+    REGAIN_HOST_DEVICE void set_tables(const DielectricAlbedoTables& tables) { _tables = tables; }
 
     /// Index ahead of a direction over index behind it.
     REGAIN_HOST_DEVICE RelativeIndex<Real> relative_index(const Vec3<Real>& w) const
@@ -404,7 +404,7 @@ private:
     Color _reflection_tint, _transmission_tint;
     ScatterMode _mode;
     TransmissionShadowing _shadowing;
-    DielectricTables _tables;
+    DielectricAlbedoTables _tables;
 };
 
 REGAIN_NAMESPACE_END

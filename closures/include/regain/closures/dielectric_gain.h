@@ -39,8 +39,8 @@ public:
     /// to [0, 1], NaN becomes 0.
     template <class Distribution>
     REGAIN_HOST_DEVICE DielectricGain(const Dielectric<Distribution>& lobe, Method method,
-                                      const DielectricTables& tables,
-                                      const MicrofacetTables& mirror, Real strength)
+                                      const DielectricTables& tables, const LossTables& mirror,
+                                      Real strength)
         : _tables(tables), _mirror(mirror), _axes(lobe.distribution())
     {
         const Vec3<Real> up(Real(0), Real(0), Real(1));
@@ -83,8 +83,8 @@ public:
     REGAIN_HOST_DEVICE bool energy_preserving() const { return _bound && _preserves; }
 
 private:
-    DielectricTables _tables;
-    MicrofacetTables _mirror;
+    DielectricLossTables _tables;
+    LossTables _mirror;
     DirectionAxes<Real> _axes;
     RelativeIndex<Real> _index[2];  // from above, from below
     Real _strength[2] = {Real(0), Real(0)};
@@ -97,7 +97,7 @@ template <class Distribution>
 REGAIN_HOST_DEVICE
     Compensated<Dielectric<Distribution>, DielectricGain<typename Distribution::Real>>
     compensated(Dielectric<Distribution> lobe, Method method, const DielectricTables& tables,
-                const MicrofacetTables& mirror,
+                const LossTables& mirror,
                 typename Distribution::Real strength = typename Distribution::Real(1))
 {
     if (!lobe.tables()) lobe.set_tables(tables);
@@ -111,7 +111,7 @@ REGAIN_HOST_DEVICE
     compensated(const Dielectric<Distribution>& lobe, Method method, const DielectricTables& tables,
                 typename Distribution::Real strength = typename Distribution::Real(1))
 {
-    return compensated(lobe, method, tables, MicrofacetTables{}, strength);
+    return compensated(lobe, method, tables, LossTables{}, strength);
 }
 
 REGAIN_NAMESPACE_END

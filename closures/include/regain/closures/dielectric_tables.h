@@ -76,21 +76,15 @@ private:
     Real _x, _y, _mean;
 };
 
-/// The tables of one distribution and one form of transmission shadowing. Without them the default
-/// is empty, and nothing may be looked up.
-struct DielectricTables
+/// What single scattering keeps of the light: the part of DielectricTables that a gain needs.
+struct DielectricLossTables
 {
     TableView E[2];            ///< E^S over (x, y, z), by side
-    TableView R[2];            ///< E^R / E^S - w F(mu) over (x, y, z), by side
     bool logarithmic = false;  ///< E holds natural logarithms
     bool near_index = false;   ///< E[1] runs along z of the beta form
     bool tail = false;         ///< x is that of distributions with a tail
-    /// Reflected share of later bounces over (x, y, z), by side: see dielectric_tail.h.
-    TableView later[2];
     /// What anisotropic lobes take besides; nothing else reads it. It is kept by whoever made it.
     const DielectricAnisotropy* anisotropy = nullptr;
-
-    REGAIN_HOST_DEVICE explicit operator bool() const { return E[0] && E[1] && R[0] && R[1]; }
 
     /// a above of a unit w and of `widths`, a distribution or its axes; eta_o > 0.
     template <class Widths, class Real>
@@ -140,6 +134,37 @@ struct DielectricTables
         return detail::min(albedo(alpha, eta_o, mu) * change, Real(1));
     }
 
+protected:
+    template <class Real>
+    REGAIN_HOST_DEVICE Real look_up(const TableView (&table)[2], bool near, Real alpha, Real eta,
+                                    Real mu) const
+    {
+        const Real width = tail ? detail::max(alpha, Real(detail::tail_least_width)) : alpha;
+        const Real y = detail::sqrt(alpha);
+        const MaskOf<Real> dense_ahead = eta >= Real(1);
+        Real outside(1), inside(1);
+        if (detail::any<Real>(dense_ahead))
+            outside = table[0].at(detail::dielectric_cosine(mu, width, tail), y,
+                                  detail::index_coordinate(eta));
+        if (!detail::all<Real>(dense_ahead))
+        {
+            const Real below_1 = detail::select(dense_ahead, Real(0.5f), eta);
+            inside = table[1].at(
+                detail::critical_cosine_coordinate(mu, width, below_1, tail, near), y,
+                near ? detail::near_index_coordinate(below_1) : detail::index_coordinate(below_1));
+        }
+        return detail::select(dense_ahead, outside, inside);
+    }
+};
+
+/// What a lobe needs of them to know its own albedo. Without them the default is empty, and nothing
+/// may be looked up.
+struct DielectricAlbedoTables : DielectricLossTables
+{
+    TableView R[2];  ///< E^R / E^S - w F(mu) over (x, y, z), by side
+
+    REGAIN_INLINE explicit operator bool() const { return E[0] && E[1] && R[0] && R[1]; }
+
     /// E^R / E^S, in [0, 1]; arguments as of the first.
     template <class Real>
     REGAIN_HOST_DEVICE Real reflected_share(Real alpha, Real eta_o, Real mu) const
@@ -161,6 +186,13 @@ struct DielectricTables
         const Real towards = AnisotropicGlassPlace<Real>::towards(x, y, w);
         return reflected_share(detail::select(same, widths.effective_alpha(), towards), eta_o, mu);
     }
+};
+
+/// The tables of one distribution and one form of transmission shadowing.
+struct DielectricTables : DielectricAlbedoTables
+{
+    /// Reflected share of later bounces over (x, y, z), by side: see dielectric_tail.h.
+    TableView later[2];
 
     /// The reflected share of all that leaves after two facets or more, in [0, 1]; arguments as
     /// above. Needs `later`.
@@ -168,28 +200,6 @@ struct DielectricTables
     REGAIN_HOST_DEVICE Real later_reflected_share(Real alpha, Real eta_o, Real mu) const
     {
         return detail::saturate(look_up(later, false, alpha, eta_o, mu));
-    }
-
-private:
-    template <class Real>
-    REGAIN_HOST_DEVICE Real look_up(const TableView (&table)[2], bool near, Real alpha, Real eta,
-                                    Real mu) const
-    {
-        const Real width = tail ? detail::max(alpha, Real(detail::tail_least_width)) : alpha;
-        const Real y = detail::sqrt(alpha);
-        const MaskOf<Real> dense_ahead = eta >= Real(1);
-        Real outside(1), inside(1);
-        if (detail::any<Real>(dense_ahead))
-            outside = table[0].at(detail::dielectric_cosine(mu, width, tail), y,
-                                  detail::index_coordinate(eta));
-        if (!detail::all<Real>(dense_ahead))
-        {
-            const Real below_1 = detail::select(dense_ahead, Real(0.5f), eta);
-            inside = table[1].at(
-                detail::critical_cosine_coordinate(mu, width, below_1, tail, near), y,
-                near ? detail::near_index_coordinate(below_1) : detail::index_coordinate(below_1));
-        }
-        return detail::select(dense_ahead, outside, inside);
     }
 };
 

@@ -86,6 +86,9 @@ public:
     /// Works on the side of wo: what is seen from below is mirrored to above.
     class Prepared
     {
+        using Depth = detail::WalkDepth<Real>;
+        using Visible = decltype(std::declval<const Distribution&>().visible(Vec3<Real>()));
+
     public:
         REGAIN_HOST_DEVICE Prepared(const DielectricWalk& closure, const Vec3<Real>& wo)
             : _distribution(closure.distribution()),
@@ -147,7 +150,64 @@ public:
         /// u in [0, 1)^3. The weight is not eval / pdf: see walk.h.
         REGAIN_HOST_DEVICE Sample<Real> sample(const Vec3<Real>& u) const
         {
-            const WalkPath<Real> p = path(u);
+            return sample_of(path(u));
+        }
+
+        /// A walk under way, for who goes on with many at a time: see wide_walks.h.
+        struct Flight
+        {
+            Vec3<Real> v;              // against the ray, in the frame of the side on which it is
+            Real area;                 // sigma(v)
+            Mask below = Mask(false);  // that is the other side
+            Real side, bounces;        // of wo, 1 above and -1 below; facets met
+            Real first;                // the number that the depth of the first hit is drawn by
+            Depth depth;
+            RandomStream<Real> stream;
+
+            template <class Numbers, class Masks>
+            REGAIN_HOST_DEVICE void each(const Numbers& numbers, const Masks& masks)
+            {
+                for (Real* x : {&v.x, &v.y, &v.z, &area, &side, &bounces, &first}) numbers(*x);
+                masks(below);
+                depth.each(numbers, masks);
+            }
+        };
+        /// After the first facet: where it has not left the surface.
+        REGAIN_HOST_DEVICE Mask take_off(const Vec3<Real>& u, Flight& f) const
+        {
+            Real weight(1);
+            return start<true>(u, f, weight);
+        }
+        /// One facet more for those in `active`, of which those that leave are taken out.
+        REGAIN_HOST_DEVICE static void bounce(const DielectricWalk& closure, Flight& f,
+                                              Mask& active)
+        {
+            const auto index = [&](const Real& side) {
+                return closure._lobe.relative_index(Vec3<Real>(Real(0), Real(0), side));
+            };
+            Surface{closure.distribution(), index(f.side), index(-f.side),
+                    closure._lobe.transmits_delta()}
+                .bounce(f, active);
+        }
+        /// Where it has got to; `active` are those that are given up.
+        REGAIN_HOST_DEVICE WalkPath<Real> land(const Flight& f, const Mask& active) const
+        {
+            // What has been given up leaves along its way: see walk_limit.
+            const Mask inward = detail::both<Real>(active, f.v.z > Real(0));
+            const Vec3<Real> v = detail::select(inward, detail::mirrored(f.v), f.v);
+            const Mask below = detail::differ<Real>(f.below, inward);
+
+            WalkPath<Real> p;
+            const Vec3<Real> d = detail::normalised(-v);  // what the bounces have rounded off
+            p.wi = turned(detail::select(below, detail::mirrored(d), d));
+            p.weight = tint(below);
+            p.bounces = f.bounces;
+            p.escaped = Mask(true);
+            p.transmitted = below;
+            return p;
+        }
+        REGAIN_HOST_DEVICE Sample<Real> sample_of(const WalkPath<Real>& p) const
+        {
             Sample<Real> s;
             s.valid = detail::both<Real>(_valid, p.escaped);
             s.transmitted = detail::both<Real>(s.valid, p.transmitted);
@@ -179,8 +239,66 @@ public:
         }
 
     private:
-        using Depth = detail::WalkDepth<Real>;
-        using Visible = decltype(std::declval<const Distribution&>().visible(Vec3<Real>()));
+        // What facets do, to whichever walk.
+        struct Surface
+        {
+            const Distribution& distribution;
+            RelativeIndex<Real> ahead, behind;  // seen from the side of wo, and from the other
+            Mask narrow;                        // light passes undeflected
+
+            REGAIN_HOST_DEVICE static Real third(RandomStream<Real>& stream)
+            {
+                return Distribution::random_numbers > 2 ? stream.next() : Real(0);
+            }
+            REGAIN_HOST_DEVICE Real area_of(const Vec3<Real>& v) const
+            {
+                return detail::max(distribution.projected_area(v), detail::constant<Real>(1e-30));
+            }
+
+            REGAIN_HOST_DEVICE void bounce(Flight& f, Mask& active) const
+            {
+                const auto visible = distribution.visible(f.v);
+                const Real x = f.stream.next(), y = f.stream.next();
+                const Vec3<Real> m = visible.sample({x, y, third(f.stream)});
+                scatter(f, m, f.stream.next(), active);
+                f.bounces = detail::select(active, f.bounces + Real(1), f.bounces);
+                f.area = area_of(f.v);
+                active = detail::both<Real>(active, !passed(f));
+                active = detail::both<Real>(
+                    active, !f.depth.move(-f.v.z, f.area, f.stream.next(), f.first, active));
+            }
+
+            // Where transmission is a delta lobe the surface deflects nothing, and that it is
+            // crossed again and again at grazing angles, about 1 / mu times, changes nothing.
+            REGAIN_HOST_DEVICE Mask passed(const Flight& f) const
+            {
+                return detail::both<Real>(detail::both<Real>(narrow, f.below), f.v.z < Real(0));
+            }
+
+            // At the facet m, in the lanes `active`: v, against the ray that arrives, becomes what
+            // is against the one that departs, in the frame of the side on which it does.
+            REGAIN_HOST_DEVICE void scatter(Flight& f, const Vec3<Real>& m, const Real& choice,
+                                            const Mask& active) const
+            {
+                const RelativeIndex<Real> index = detail::select(f.below, behind, ahead);
+                const Real cosine = detail::dot(f.v, m);
+                const Real F =
+                    DielectricFresnel<Real>(index).reflectance(detail::clamped(cosine, 0, 1));
+                const Vec3<Real> reflected = f.v - m * (Real(2) * cosine);
+                const Mask crosses = detail::both<Real>(active, choice >= F);
+                if (!detail::any<Real>(crosses))
+                {
+                    f.v = detail::select(active, reflected, f.v);
+                    return;
+                }
+                const Refraction<Real> refraction = refract(f.v, m, index);
+                const Mask passes = detail::both<Real>(crosses, refraction.valid);
+                f.v = detail::select(passes, -detail::mirrored(refraction.wi),
+                                     detail::select(active, reflected, f.v));
+                f.depth.cross(f.first, passes);
+                f.below = detail::differ<Real>(f.below, passes);
+            }
+        };
 
         REGAIN_HOST_DEVICE Real transmitted_share(double entering) const
         {
@@ -254,85 +372,46 @@ public:
         template <bool leaves_at_once, class Join>
         REGAIN_HOST_DEVICE WalkPath<Real> trace(const Vec3<Real>& u, const Join& join) const
         {
-            constexpr bool three = Distribution::random_numbers > 2;
-            RandomStream<Real> stream(Vec3<Real>(u.z, u.x, u.y));
-            const Real first = stream.next();
-            const auto third = [&] { return three ? stream.next() : Real(0); };
-            const Vec3<Real> z(Real(0), Real(0), Real(1));
-
-            Real weight(1), bounces(1);
-            Mask below(false);
-            Depth depth = start();
-            Vec3<Real> v = _wo, m = detail::select(_flat, z, _visible.sample({u.x, u.y, third()}));
-            scatter(v, below, depth, m, detail::saturate(u.z), first, Mask(true));
-            Visible visible = _distribution.visible(v);
-            Real area = detail::visible_area(visible);
-            Mask active = detail::both<Real>(_valid, !_flat);
-            active = detail::both<Real>(active, !passed(v, below));
-            if constexpr (!leaves_at_once)
-                weight = depth.stay(-v.z, area, stream.next(), first, active);
-            else
-                active = detail::both<Real>(active,
-                                            !depth.move(-v.z, area, stream.next(), first, active));
-
+            Flight f;
+            Real weight(1);
+            Mask active = start<leaves_at_once>(u, f, weight);
+            const Surface surface{_distribution, _ahead, _behind, _narrow};
             for (int n = 1; n < walk_limit && detail::any<Real>(active); ++n)
             {
-                join(v, area, below, detail::select(active, weight, Real(0)), depth, first);
-                const Real x = stream.next(), y = stream.next();
-                m = visible.sample({x, y, third()});
-                scatter(v, below, depth, m, stream.next(), first, active);
-                bounces = detail::select(active, bounces + Real(1), bounces);
-                visible = _distribution.visible(v);
-                area = detail::visible_area(visible);
-                active = detail::both<Real>(active, !passed(v, below));
-                active = detail::both<Real>(active,
-                                            !depth.move(-v.z, area, stream.next(), first, active));
+                join(f.v, f.area, f.below, detail::select(active, weight, Real(0)), f.depth,
+                     f.first);
+                surface.bounce(f, active);
             }
-            // What has been given up leaves along its way: see walk_limit.
-            const Mask inward = detail::both<Real>(active, v.z > Real(0));
-            v = detail::select(inward, detail::mirrored(v), v);
-            below = detail::differ<Real>(below, inward);
-
-            WalkPath<Real> p;
-            const Vec3<Real> d = detail::normalised(-v);  // what the bounces have rounded off
-            p.wi = turned(detail::select(below, detail::mirrored(d), d));
-            p.weight = tint(below) * weight;
-            p.bounces = bounces;
-            p.escaped = Mask(true);
-            p.transmitted = below;
+            WalkPath<Real> p = land(f, active);
+            p.weight *= weight;
             return p;
         }
 
-        // Where transmission is a delta lobe the surface deflects nothing, and that it is crossed
-        // again and again at grazing angles, about 1 / mu times, changes nothing.
-        REGAIN_HOST_DEVICE Mask passed(const Vec3<Real>& v, const Mask& below) const
+        // The first facet; where the walk has not left.
+        template <bool leaves_at_once>
+        REGAIN_HOST_DEVICE Mask start(const Vec3<Real>& u, Flight& f,
+                                      [[maybe_unused]] Real& weight) const
         {
-            return detail::both<Real>(detail::both<Real>(_narrow, below), v.z < Real(0));
-        }
-
-        // At the facet m, in the lanes `active`: v, against the ray that arrives, becomes what is
-        // against the one that departs, in the frame of the side on which it does.
-        REGAIN_HOST_DEVICE void scatter(Vec3<Real>& v, Mask& below, Depth& depth,
-                                        const Vec3<Real>& m, const Real& choice, const Real& first,
-                                        const Mask& active) const
-        {
-            const RelativeIndex<Real> index = detail::select(below, _behind, _ahead);
-            const Real cosine = detail::dot(v, m);
-            const Real F = DielectricFresnel<Real>(index).reflectance(
-                detail::min(detail::max(cosine, Real(0)), Real(1)));
-            const Vec3<Real> reflected = v - m * (Real(2) * cosine);
-            const Mask crosses = detail::both<Real>(active, choice >= F);
-            if (!detail::any<Real>(crosses))
+            const Surface surface{_distribution, _ahead, _behind, _narrow};
+            f.stream = RandomStream<Real>(Vec3<Real>(u.z, u.x, u.y));
+            f.first = f.stream.next();
+            f.side = _side;
+            f.bounces = Real(1);
+            f.depth = start();
+            f.v = _wo;
+            const Vec3<Real> z(Real(0), Real(0), Real(1)),
+                m = detail::select(_flat, z, _visible.sample({u.x, u.y, Surface::third(f.stream)}));
+            surface.scatter(f, m, detail::saturate(u.z), Mask(true));
+            f.area = surface.area_of(f.v);
+            Mask active = detail::both<Real>(_valid, !_flat);
+            active = detail::both<Real>(active, !surface.passed(f));
+            const Real step = f.stream.next();
+            if constexpr (!leaves_at_once)
             {
-                v = detail::select(active, reflected, v);
-                return;
+                weight = f.depth.stay(-f.v.z, f.area, step, f.first, active);
+                return active;
             }
-            const Refraction<Real> refraction = refract(v, m, index);
-            const Mask passes = detail::both<Real>(crosses, refraction.valid);
-            v = detail::select(passes, -detail::mirrored(refraction.wi),
-                               detail::select(active, reflected, v));
-            depth.cross(first, passes);
-            below = detail::differ<Real>(below, passes);
+            return detail::both<Real>(active, !f.depth.move(-f.v.z, f.area, step, f.first, active));
         }
 
         // Near the density of sample, per steradian; wi on the side of wo.

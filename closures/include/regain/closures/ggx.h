@@ -55,7 +55,7 @@ public:
     REGAIN_HOST_DEVICE Real tail_length() const { return Real(1); }
 
     /// D of the normal m along h, which need not be unit: length2 = h.h. Per steradian.
-    REGAIN_HOST_DEVICE Real D(const Vec3<Real>& h, Real length2) const
+    REGAIN_INLINE Real D(const Vec3<Real>& h, Real length2) const
     {
         const Real x = h.x * _inv_alpha_x, y = h.y * _inv_alpha_y;
         // The quotient first: squaring the lengths one by one would underflow at grazing angles.
@@ -65,13 +65,13 @@ public:
     REGAIN_HOST_DEVICE Real D(const Vec3<Real>& m) const { return D(m, Real(1)); }
 
     /// Projected area of the visible microsurface, sigma(w) above; w.z may have either sign.
-    REGAIN_HOST_DEVICE Real projected_area(const Vec3<Real>& w) const
+    REGAIN_INLINE Real projected_area(const Vec3<Real>& w) const
     {
         return projected_area(w, stretched_length(w));
     }
 
     /// Lambda(w) for w.z > 0.
-    REGAIN_HOST_DEVICE Real lambda(const Vec3<Real>& w) const
+    REGAIN_INLINE Real lambda(const Vec3<Real>& w) const
     {
         // (t / z - 1) / 2 loses all digits at small slopes; its conjugate does not.
         const Real x = _alpha_x * w.x, y = _alpha_y * w.y;
@@ -108,13 +108,13 @@ public:
         }
 
         /// sigma(wo).
-        REGAIN_HOST_DEVICE Real projected_area() const { return _projected_area; }
+        REGAIN_INLINE Real projected_area() const { return _projected_area; }
 
         /// Factor that turns D(m) into the density of the reflected direction, per steradian.
         REGAIN_HOST_DEVICE Real reflected_density() const { return _reflected_density; }
 
         /// A visible normal for u in [0, 1)^3, of which x and y are read; unit, z >= 0.
-        REGAIN_HOST_DEVICE Vec3<Real> sample(const Vec3<Real>& u) const
+        REGAIN_INLINE Vec3<Real> sample(const Vec3<Real>& u) const
         {
             const Real phi = detail::constant<Real>(6.28318530717958647692) * detail::saturate(u.x);
             // v + c, where c = (sin_theta cos phi, sin_theta sin phi, rise - cap) is on the cap,
@@ -150,14 +150,15 @@ public:
 
 private:
     // t is the stretched length of w. Below the horizon the sum cancels; its conjugate does not.
-    REGAIN_HOST_DEVICE Real projected_area(const Vec3<Real>& w, Real t) const
+    REGAIN_INLINE Real projected_area(const Vec3<Real>& w, Real t) const
     {
-        const Real x = _alpha_x * w.x, y = _alpha_y * w.y;
         const MaskOf<Real> below = w.z < Real(0);
+        if (!detail::any<Real>(below)) return Real(0.5f) * (w.z + t);
+        const Real x = _alpha_x * w.x, y = _alpha_y * w.y;
         const Real tangential2 = detail::select(below, x * x + y * y, Real(0));
         return Real(0.5f) * detail::select(below, tangential2 / (t + detail::abs(w.z)), w.z + t);
     }
-    REGAIN_HOST_DEVICE Real stretched_length(const Vec3<Real>& w) const
+    REGAIN_INLINE Real stretched_length(const Vec3<Real>& w) const
     {
         const Real x = _alpha_x * w.x, y = _alpha_y * w.y;
         return detail::sqrt(x * x + y * y + w.z * w.z);

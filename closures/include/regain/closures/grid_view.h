@@ -56,8 +56,7 @@ private:
         Real a, b;
         if constexpr (Axis == 0)
         {
-            a = NumberTraits<Real>::gather(data, outer);
-            b = NumberTraits<Real>::gather(data, outer + 1);
+            NumberTraits<Real>::gather_pair(data, outer, a, b);
         }
         else
         {

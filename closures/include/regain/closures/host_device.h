@@ -12,3 +12,12 @@
 #else
 #define REGAIN_HOST_DEVICE
 #endif
+
+/// The same before the small functions that everything else is made of, and before those that make
+/// up an eval or a sample. Vectors of floats go through memory where a function is called, which
+/// costs more than such a function does, and the compiler's own estimate does not know that.
+#if defined(__GNUC__) && !defined(__CUDACC__) && !defined(__HIPCC__)
+#define REGAIN_INLINE inline __attribute__((always_inline))
+#else
+#define REGAIN_INLINE REGAIN_HOST_DEVICE
+#endif

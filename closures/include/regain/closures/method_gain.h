@@ -137,7 +137,7 @@ private:
     }
     REGAIN_HOST_DEVICE static Real least_albedo() { return detail::constant<Real>(1e-12); }
 
-    MicrofacetTables _tables;
+    LossTables _tables;
     DirectionAxes<Real> _axes;
     Color _F_ms = Color(Real(0));
     bool _bound = false, _preserves = false;

@@ -39,16 +39,15 @@ public:
 
     /// `tables` make albedo() a look-up; without them it integrates, which is slower.
     REGAIN_HOST_DEVICE MicrofacetReflection(const Distribution& distribution,
-                                            const Fresnel& fresnel,
-                                            const MicrofacetTables& tables = {})
+                                            const Fresnel& fresnel, const AlbedoTables& tables = {})
         : _distribution(distribution), _fresnel(fresnel), _tables(tables)
     {}
 
     REGAIN_HOST_DEVICE const Distribution& distribution() const { return _distribution; }
     REGAIN_HOST_DEVICE const Fresnel& fresnel() const { return _fresnel; }
 
-    REGAIN_HOST_DEVICE const MicrofacetTables& tables() const { return _tables; }
-    REGAIN_HOST_DEVICE void set_tables(const MicrofacetTables& tables) { _tables = tables; }
+    REGAIN_HOST_DEVICE const AlbedoTables& tables() const { return _tables; }
+    REGAIN_HOST_DEVICE void set_tables(const AlbedoTables& tables) { _tables = tables; }
 
     REGAIN_HOST_DEVICE Traits traits() const
     {
@@ -81,7 +80,7 @@ public:
         /// or pdf.
         REGAIN_HOST_DEVICE void scale_by(const Color& weight) { _weight *= weight; }
 
-        REGAIN_HOST_DEVICE Color eval(const Vec3<Real>& wi) const
+        REGAIN_INLINE Color eval(const Vec3<Real>& wi) const
         {
             const Terms t = terms(wi);
             return detail::select(t.valid, _lobe._fresnel.at(t.cos_facet) * _weight * t.value,
@@ -93,7 +92,7 @@ public:
             return sample(detail::two_numbers<MicrofacetReflection>(u));
         }
         /// u in [0, 1)^3, of which the first `random_numbers` are read.
-        REGAIN_HOST_DEVICE Sample<Real> sample(const Vec3<Real>& u) const
+        REGAIN_INLINE Sample<Real> sample(const Vec3<Real>& u) const
         {
             const Vec3<Real> m =
                 detail::select(_delta, Vec3<Real>(Real(0), Real(0), Real(1)), _visible.sample(u));
@@ -111,7 +110,7 @@ public:
             return s;
         }
 
-        REGAIN_HOST_DEVICE Real pdf(const Vec3<Real>& wi) const
+        REGAIN_INLINE Real pdf(const Vec3<Real>& wi) const
         {
             const Terms t = terms(wi);
             return detail::select(t.valid, t.density, Real(0));
@@ -119,7 +118,7 @@ public:
 
         REGAIN_HOST_DEVICE Albedo<Real> albedo() const
         {
-            const MicrofacetTables& t = _lobe._tables;
+            const AlbedoTables& t = _lobe._tables;
             if (t.has_albedo() && t.has_moments()) return {tabulated_albedo(), Color(Real(0))};
             return detail::mean_weight<Real>(*this, detail::grid_rows<Distribution>);
         }
@@ -135,12 +134,14 @@ public:
             Real cos_facet;  // wo.h
         };
 
-        REGAIN_HOST_DEVICE Terms terms(const Vec3<Real>& direction) const
+        REGAIN_INLINE Terms terms(const Vec3<Real>& direction) const
         {
             const Distribution& distribution = _lobe._distribution;
 
             Terms t;
             t.valid = detail::both<Real>(_valid & !_delta, detail::is_above_horizon(direction));
+            // Of one float this leaves nothing to select below.
+            if (!detail::any<Real>(t.valid)) return {t.valid, Real(0), Real(1), Real(1)};
             const Vec3<Real> wi =
                 detail::select(t.valid, direction, Vec3<Real>(Real(0), Real(0), Real(1)));
 
@@ -159,7 +160,7 @@ public:
 
         REGAIN_HOST_DEVICE Color tabulated_albedo() const
         {
-            const MicrofacetTables& tables = _lobe._tables;
+            const AlbedoTables& tables = _lobe._tables;
             const DirectionAxes<Real> axes(_lobe._distribution);
             const Real mu = _wo.z;
             const Real E = detail::select(_delta, Real(1), axes.albedo(tables, _wo));
@@ -180,7 +181,7 @@ public:
 private:
     Distribution _distribution;
     Fresnel _fresnel;
-    MicrofacetTables _tables;
+    AlbedoTables _tables;
 };
 
 REGAIN_NAMESPACE_END

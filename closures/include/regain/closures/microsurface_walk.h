@@ -74,6 +74,19 @@ public:
         : _mu(mu), _area(area), _tau(Real(0)), _drawn(false)
     {}
 
+    /// To be assigned to.
+    WalkDepth() = default;
+
+    /// Calls numbers(x) for each of its numbers, masks(m) for its mask.
+    template <class Numbers, class Masks>
+    REGAIN_HOST_DEVICE void each(const Numbers& numbers, const Masks& masks)
+    {
+        numbers(_mu);
+        numbers(_area);
+        numbers(_tau);
+        masks(_drawn);
+    }
+
     /// Probability that a ray from here leaves along w; z = w.z > 0, area = sigma(-w).
     REGAIN_HOST_DEVICE Real escape_probability(const Real& z, const Real& area) const
     {
@@ -149,9 +162,9 @@ private:
         _drawn = _drawn | now;
     }
 
-    Real _mu, _area;  // of wo
-    Real _tau;        // where drawn
-    Mask _drawn;
+    Real _mu = Real(1), _area = Real(1);  // of wo
+    Real _tau = Real(0);                  // where drawn
+    Mask _drawn = Mask(false);
 };
 
 /// A facet that reflects v into wi, z of either sign: D(h) / 4, which over sigma(v) is the density

@@ -22,6 +22,9 @@ class RandomStream
 public:
     using Bits = BitsOf<Real>;
 
+    /// To be assigned to.
+    RandomStream() = default;
+
     /// u: numbers in [0, 1). Streams of different u are as good as independent.
     REGAIN_HOST_DEVICE explicit RandomStream(const Vec3<Real>& u)
     {
@@ -52,6 +55,11 @@ public:
         return {x, y, next()};
     }
 
+    /// All that it is, for keeping streams lane by lane: the key, and a count that is the same in
+    /// all lanes.
+    REGAIN_HOST_DEVICE Bits& key() { return _key; }
+    REGAIN_HOST_DEVICE std::uint32_t& count() { return _counter; }
+
 private:
     REGAIN_HOST_DEVICE Bits bits() { return mixed(_key ^ mixed(Bits(_counter += 0x9E3779B9u))); }
 
@@ -65,8 +73,22 @@ private:
         return x;
     }
 
-    Bits _key;
+    Bits _key = Bits(0);
     std::uint32_t _counter = 0;
 };
+
+namespace detail {
+
+/// u for a stream, the last number to nine bits. A sum of lobes picks one by that number and hands
+/// on what is left of it, stretched: its last digits differ between instruction sets, and so would
+/// everything that the stream decides.
+template <class Real>
+REGAIN_HOST_DEVICE Vec3<Real> stream_numbers(const Vec3<Real>& u)
+{
+    using Number = NumberTraits<Real>;
+    return {u.x, u.y, Number::to_real(Number::truncate(saturate(u.z) * Real(512)))};
+}
+
+}  // namespace detail
 
 REGAIN_NAMESPACE_END

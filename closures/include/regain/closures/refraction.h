@@ -35,26 +35,26 @@ struct RelativeIndex
     Real minus_one;  ///< eta - 1
 
     /// eta in [1e-2, 1e2]; outside it is clamped, NaN becomes 1.5.
-    REGAIN_HOST_DEVICE static RelativeIndex of(Real eta)
+    REGAIN_INLINE static RelativeIndex of(Real eta)
     {
         const Real e = detail::sanitised(eta, 1e-2, 1e2, 1.5);
         return {e, e - Real(1)};
     }
 
     /// Seen from the other side.
-    REGAIN_HOST_DEVICE RelativeIndex inverse() const
+    REGAIN_INLINE RelativeIndex inverse() const
     {
         const Real inv = Real(1) / eta;
         return {inv, -minus_one * inv};
     }
 
     /// eta^2 - 1.
-    REGAIN_HOST_DEVICE Real square_minus_one() const { return minus_one * (eta + Real(1)); }
+    REGAIN_INLINE Real square_minus_one() const { return minus_one * (eta + Real(1)); }
 
     /// g^2 = eta^2 - (1 - c^2) of the cosine c in [0, 1]: not positive where all is reflected. Near
     /// 1 by what eta differs from it, which is all there is at grazing angles; else by eta, which
     /// is all there is head on where eta is small.
-    REGAIN_HOST_DEVICE Real g2(Real c) const
+    REGAIN_INLINE Real g2(Real c) const
     {
         return detail::select(eta < Real(0.5f), eta * eta - (Real(1) - c) * (Real(1) + c),
                               square_minus_one() + c * c);
@@ -64,8 +64,8 @@ struct RelativeIndex
 namespace detail {
 
 template <class Real>
-REGAIN_HOST_DEVICE RelativeIndex<Real> select(MaskOf<Real> mask, const RelativeIndex<Real>& a,
-                                              const RelativeIndex<Real>& b)
+REGAIN_INLINE RelativeIndex<Real> select(MaskOf<Real> mask, const RelativeIndex<Real>& a,
+                                         const RelativeIndex<Real>& b)
 {
     return {select(mask, a.eta, b.eta), select(mask, a.minus_one, b.minus_one)};
 }
@@ -83,8 +83,8 @@ struct Refraction
 
 /// The refraction of wo at a facet m, wo.m > 0.
 template <class Real>
-REGAIN_HOST_DEVICE Refraction<Real> refract(const Vec3<Real>& wo, const Vec3<Real>& m,
-                                            const RelativeIndex<Real>& eta_o)
+REGAIN_INLINE Refraction<Real> refract(const Vec3<Real>& wo, const Vec3<Real>& m,
+                                       const RelativeIndex<Real>& eta_o)
 {
     const Real c = detail::dot(wo, m), k = eta_o.square_minus_one();
     const Real g2 = eta_o.g2(c);
@@ -100,14 +100,14 @@ REGAIN_HOST_DEVICE Refraction<Real> refract(const Vec3<Real>& wo, const Vec3<Rea
 }
 /// eta_o > 0.
 template <class Real>
-REGAIN_HOST_DEVICE Refraction<Real> refract(const Vec3<Real>& wo, const Vec3<Real>& m, Real eta_o)
+REGAIN_INLINE Refraction<Real> refract(const Vec3<Real>& wo, const Vec3<Real>& m, Real eta_o)
 {
     return refract(wo, m, RelativeIndex<Real>{eta_o, eta_o - Real(1)});
 }
 
 /// The reflection of wo at a facet m.
 template <class Real>
-REGAIN_HOST_DEVICE Vec3<Real> reflect(const Vec3<Real>& wo, const Vec3<Real>& m)
+REGAIN_INLINE Vec3<Real> reflect(const Vec3<Real>& wo, const Vec3<Real>& m)
 {
     return m * (Real(2) * detail::dot(wo, m)) - wo;
 }
@@ -118,7 +118,7 @@ namespace detail {
 /// in float is rounding. Their difference d does not cancel; and since both vectors are unit,
 /// (wo + wi).d = wi.z^2 - wo.z^2 is known to the last digit.
 template <class Real>
-REGAIN_HOST_DEVICE Vec3<Real> half_vector(const Vec3<Real>& wo, const Vec3<Real>& wi)
+REGAIN_INLINE Vec3<Real> half_vector(const Vec3<Real>& wo, const Vec3<Real>& wi)
 {
     const Vec3<Real> sum = wo + wi;
     const Real dx = wo.x - wi.x, dy = wo.y - wi.y, d2 = dx * dx + dy * dy;
@@ -134,8 +134,8 @@ REGAIN_HOST_DEVICE Vec3<Real> half_vector(const Vec3<Real>& wo, const Vec3<Real>
 /// near 1 the sum wo + wi is short, and the rounding of the lengths of wo and wi, which lies along
 /// their difference, would be most of it; of unit vectors the sum has no such part.
 template <class Real>
-REGAIN_HOST_DEVICE Vec3<Real> refraction_half_vector(const Vec3<Real>& wo, const Vec3<Real>& wi,
-                                                     const RelativeIndex<Real>& eta_o)
+REGAIN_INLINE Vec3<Real> refraction_half_vector(const Vec3<Real>& wo, const Vec3<Real>& wi,
+                                                const RelativeIndex<Real>& eta_o)
 {
     const Vec3<Real> sum = wo + wi, d = wo - wi;
     const Real d2 = dot(d, d);
@@ -146,7 +146,7 @@ REGAIN_HOST_DEVICE Vec3<Real> refraction_half_vector(const Vec3<Real>& wo, const
 }
 
 template <class Real>
-REGAIN_HOST_DEVICE MaskOf<Real> same_sign(Real a, Real b)
+REGAIN_INLINE MaskOf<Real> same_sign(Real a, Real b)
 {
     const MaskOf<Real> up = both<Real>(a > Real(0), b > Real(0)),
                        down = both<Real>(a < Real(0), b < Real(0));
@@ -156,14 +156,14 @@ REGAIN_HOST_DEVICE MaskOf<Real> same_sign(Real a, Real b)
 /// A unit direction on either side of the surface. All of NaN, infinity, zero and the horizon give
 /// false.
 template <class Real>
-REGAIN_HOST_DEVICE MaskOf<Real> is_off_horizon(const Vec3<Real>& w)
+REGAIN_INLINE MaskOf<Real> is_off_horizon(const Vec3<Real>& w)
 {
     return both<Real>(quiet_less(constant<Real>(horizon), abs(w.z)), is_direction(w));
 }
 
 /// Directions of cosines a and b are on the same side of the surface, off the horizon: vector.h.
 template <class Real>
-REGAIN_HOST_DEVICE MaskOf<Real> same_side(Real a, Real b)
+REGAIN_INLINE MaskOf<Real> same_side(Real a, Real b)
 {
     const Real bound = constant<Real>(horizon);
     return both<Real>(same_sign(a, b), both<Real>(bound < abs(a), bound < abs(b)));
@@ -175,8 +175,8 @@ REGAIN_HOST_DEVICE MaskOf<Real> same_side(Real a, Real b)
 /// surface, both directions on the side of the facet that m points to. m need not be unit; that wi
 /// is where m reflects wo to is for the caller to know.
 template <class Real>
-REGAIN_HOST_DEVICE MaskOf<Real> is_reflection(const Vec3<Real>& wo, const Vec3<Real>& wi,
-                                              const Vec3<Real>& m)
+REGAIN_INLINE MaskOf<Real> is_reflection(const Vec3<Real>& wo, const Vec3<Real>& wi,
+                                         const Vec3<Real>& m)
 {
     const MaskOf<Real> surface =
         detail::both<Real>(detail::same_side(wo.z, wi.z), detail::same_sign(wo.z, m.z));
@@ -187,8 +187,8 @@ REGAIN_HOST_DEVICE MaskOf<Real> is_reflection(const Vec3<Real>& wo, const Vec3<R
 /// Whether a facet m on wo's side may refract wo into wi: on opposite sides of the surface and of
 /// the facet. m as above.
 template <class Real>
-REGAIN_HOST_DEVICE MaskOf<Real> is_transmission(const Vec3<Real>& wo, const Vec3<Real>& wi,
-                                                const Vec3<Real>& m)
+REGAIN_INLINE MaskOf<Real> is_transmission(const Vec3<Real>& wo, const Vec3<Real>& wi,
+                                           const Vec3<Real>& m)
 {
     const MaskOf<Real> surface =
         detail::both<Real>(detail::same_side(wo.z, -wi.z), detail::same_sign(wo.z, m.z));

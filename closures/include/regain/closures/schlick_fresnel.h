@@ -46,13 +46,13 @@ public:
                detail::constant<Real>(1.0 / dip_at_82);
     }
 
-    REGAIN_HOST_DEVICE Color at(Real mu) const
+    REGAIN_INLINE Color at(Real mu) const
     {
         const Real x = Real(1) - mu, x2 = x * x;
         const Real falloff = power(x), dip = mu * x2 * x2 * x2;
         // A dark F0 with a dark F82 would go negative between the two.
         return detail::per_channel(_F0 + _edge * falloff - _dip * dip,
-                                   [](Real v) { return detail::saturate(v); });
+                                   [](Real v) { return detail::clamped(v, 0, 1); });
     }
 
     REGAIN_HOST_DEVICE Color normal_incidence() const { return _F0; }
@@ -86,7 +86,7 @@ private:
     // mu (1 - mu)^6 at mu = 1/7, where it is largest.
     static constexpr double dip_at_82 = 46656.0 / 823543.0;
 
-    REGAIN_HOST_DEVICE Real power(Real x) const
+    REGAIN_INLINE Real power(Real x) const
     {
         if (_is_quintic)
         {

@@ -45,7 +45,7 @@ public:
     REGAIN_HOST_DEVICE Vec2<Real> sample(const Vec3<Real>& u) const
     {
         const Mask below = _cotangent < Real(0);
-        RandomStream<Real> stream(u);
+        RandomStream<Real> stream(stream_numbers(u));
         Vec3<Real> numbers = u;
         Vec2<Real> slopes{Real(0), Real(0)};
         Mask done(false);
@@ -89,10 +89,10 @@ private:
                             max(select(plain, _plain, Real(1) - _plain), constant<Real>(1e-30));
         const Real square = power_minus_one(number, select(plain, _p, _beyond));
         const Real length = sqrt(square), angle = angle_of(u.y);
-        const Real side = sin(angle);
+        const Real side = detail::sin(angle);
 
         Try t;
-        const Real x = select(plain, abs(length * cos(angle)), length);
+        const Real x = select(plain, abs(length * detail::cos(angle)), length);
         t.across = side * select(plain, length, across_of(square, u.z));
         const Real weight = c + max(c, x), chance = v * (c + c + x);
         t.taken = chance < weight;
@@ -114,7 +114,7 @@ private:
 
         Try t;
         t.along = x;
-        t.across = sin(angle_of(u.y)) * across_of(square, u.z);
+        t.across = detail::sin(angle_of(u.y)) * across_of(square, u.z);
         const Real chance =
             select(steep, Real(2) * a2 * detail::exp(Real(0.5f) * log_ratio), height * (x + a));
         t.taken = w * x * (x + a) < chance;

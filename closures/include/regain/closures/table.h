@@ -64,11 +64,11 @@ struct TableView
     int width = 0, height = 0, depth = 1;
     float offset = 0, scale = 1.0f / 65535;
 
-    REGAIN_HOST_DEVICE explicit operator bool() const { return data != nullptr; }
+    REGAIN_INLINE explicit operator bool() const { return data != nullptr; }
 
     /// Value at x along the first axis, in [0, 1]; the table has one axis and is not empty.
     template <class Real>
-    REGAIN_HOST_DEVICE Real at(Real x) const
+    REGAIN_INLINE Real at(Real x) const
     {
         const Cell<Real> i(x, width);
         return value(row(i, 0));
@@ -76,7 +76,7 @@ struct TableView
 
     /// Value at (x, y), each in [0, 1]; the table has two axes and is not empty.
     template <class Real>
-    REGAIN_HOST_DEVICE Real at(Real x, Real y) const
+    REGAIN_INLINE Real at(Real x, Real y) const
     {
         const Cell<Real> i(x, width), j(y, height);
         return value(plane(i, j, j.low * width));
@@ -84,7 +84,7 @@ struct TableView
 
     /// Value at (x, y, z), each in [0, 1]; the table has three axes and is not empty.
     template <class Real>
-    REGAIN_HOST_DEVICE Real at(Real x, Real y, Real z) const
+    REGAIN_INLINE Real at(Real x, Real y, Real z) const
     {
         const Cell<Real> i(x, width), j(y, height), k(z, depth);
         const auto line = (k.low * height + j.low) * width;
@@ -97,7 +97,7 @@ private:
     template <class Real>
     struct Cell
     {
-        REGAIN_HOST_DEVICE Cell(Real coordinate, int nodes)
+        REGAIN_INLINE Cell(Real coordinate, int nodes)
         {
             using Number = NumberTraits<Real>;
             const Real at = coordinate * Real(static_cast<ScalarOf<Real>>(nodes - 1));
@@ -109,24 +109,24 @@ private:
     };
 
     template <class Real, class Line>
-    REGAIN_HOST_DEVICE Real row(const Cell<Real>& i, Line line) const
+    REGAIN_INLINE Real row(const Cell<Real>& i, Line line) const
     {
         using Number = NumberTraits<Real>;
-        const Real a = Number::gather(data, line + i.low),
-                   b = Number::gather(data, line + i.low + 1);
+        Real a, b;
+        Number::gather_pair(data, line + i.low, a, b);
         return a + (b - a) * i.fraction;
     }
 
     // Line is the index of the first node of the row below.
     template <class Real, class Line>
-    REGAIN_HOST_DEVICE Real plane(const Cell<Real>& i, const Cell<Real>& j, const Line& line) const
+    REGAIN_INLINE Real plane(const Cell<Real>& i, const Cell<Real>& j, const Line& line) const
     {
         const Real a = row(i, line), b = row(i, line + width);
         return a + (b - a) * j.fraction;
     }
 
     template <class Real>
-    REGAIN_HOST_DEVICE Real value(Real stored) const
+    REGAIN_INLINE Real value(Real stored) const
     {
         return detail::constant<Real>(offset) + detail::constant<Real>(scale) * stored;
     }
@@ -202,21 +202,11 @@ private:
     CosineAxis _cosine;
 };
 
-/// What is tabulated of one distribution. A view that is empty is a table nobody needs.
-struct MicrofacetTables
+/// What single scattering loses: the part of MicrofacetTables that a gain keeps. Closures keep no
+/// more of them than they ask, as they are built at every shading point.
+struct LossTables
 {
-    TableView E_ss;   ///< single-scattering albedo with F = 1, over (x, y[, z])
-    TableView E_avg;  ///< 2 int_0^1 E_ss mu dmu, over (y[, z])
-    /// Over (x, y[, z]): the moments of fresnel_moments.h over all that is scattered once, each
-    /// less its value at mu.
-    TableView falloff, dip;
-    /// What leaves single scattering reciprocal and without loss, over (x, y[, z]): see
-    /// balanced_gain.h.
-    TableView balance;
-    /// Of the bounces after the first, over (sqrt(mu), y[, z]): see directional_gain.h.
-    TableView q_ms, mu_ms;
-    /// Of the same bounces, over (y[, z]): see azimuth_spread.h and fitted_tail.h.
-    TableView spread, forward, tilt;
+    TableView E_ss;  ///< single-scattering albedo with F = 1, over (x, y[, z])
     /// E_ss and E_avg hold natural logarithms: where they fall to a few hundredths, straight lines
     /// between those err less.
     bool logarithmic = false;
@@ -224,15 +214,9 @@ struct MicrofacetTables
     const MicrofacetFits* fits = nullptr;
     /// What anisotropic lobes have besides: see anisotropy.h. Without it they do with a formula.
     const GridView<5>* anisotropy = nullptr;
-    /// What those of any distribution have besides `balance`: see anisotropic_balance.h.
-    const GridView<5>* balance_anisotropy = nullptr;
 
     /// What can be asked below.
     REGAIN_HOST_DEVICE bool has_albedo() const { return fits || E_ss; }
-    REGAIN_HOST_DEVICE bool has_average_albedo() const { return fits || E_avg; }
-    REGAIN_HOST_DEVICE bool has_moments() const { return fits || (falloff && dip); }
-    REGAIN_HOST_DEVICE bool has_later_bounces() const { return fits || (q_ms && mu_ms); }
-    REGAIN_HOST_DEVICE bool has_later_shape() const { return fits || (spread && forward && tilt); }
 
     /// E_ss at the cosine mu in [0, 1], at most 1.
     template <class Real>
@@ -241,6 +225,24 @@ struct MicrofacetTables
         if (fits) return fits->E_ss(mu, axes.alpha());
         return detail::min(value(axes.directional(E_ss, mu)), Real(1));
     }
+
+protected:
+    template <class Real>
+    REGAIN_HOST_DEVICE Real value(Real number) const
+    {
+        return logarithmic ? detail::exp(number) : number;
+    }
+};
+
+/// What a lobe needs of them to know its own albedo.
+struct AlbedoTables : LossTables
+{
+    /// Over (x, y[, z]): the moments of fresnel_moments.h over all that is scattered once, each
+    /// less its value at mu.
+    TableView falloff, dip;
+
+    REGAIN_HOST_DEVICE bool has_moments() const { return fits || (falloff && dip); }
+
     /// The Fresnel moments of what is scattered once, at the cosine mu in [0, 1].
     template <class Real>
     REGAIN_HOST_DEVICE FresnelMoments<Real> moments(const TableAxes<Real>& axes, Real mu) const
@@ -251,6 +253,27 @@ struct MicrofacetTables
         m.dip += axes.directional(dip, mu);
         return m;
     }
+};
+
+/// What is tabulated of one distribution. A view that is empty is a table nobody needs.
+struct MicrofacetTables : AlbedoTables
+{
+    TableView E_avg;  ///< 2 int_0^1 E_ss mu dmu, over (y[, z])
+    /// What leaves single scattering reciprocal and without loss, over (x, y[, z]): see
+    /// balanced_gain.h.
+    TableView balance;
+    /// Of the bounces after the first, over (sqrt(mu), y[, z]): see directional_gain.h.
+    TableView q_ms, mu_ms;
+    /// Of the same bounces, over (y[, z]): see azimuth_spread.h and fitted_tail.h.
+    TableView spread, forward, tilt;
+    /// What those of any distribution have besides `balance`: see anisotropic_balance.h.
+    const GridView<5>* balance_anisotropy = nullptr;
+
+    /// What can be asked below.
+    REGAIN_HOST_DEVICE bool has_average_albedo() const { return fits || E_avg; }
+    REGAIN_HOST_DEVICE bool has_later_bounces() const { return fits || (q_ms && mu_ms); }
+    REGAIN_HOST_DEVICE bool has_later_shape() const { return fits || (spread && forward && tilt); }
+
     template <class Real>
     REGAIN_HOST_DEVICE Real average_albedo(const TableAxes<Real>& axes) const
     {
@@ -282,13 +305,6 @@ struct MicrofacetTables
     REGAIN_HOST_DEVICE Real later_tilt(const TableAxes<Real>& axes) const
     {
         return fits ? fits->tilt(axes.alpha()) : axes.average(tilt);
-    }
-
-private:
-    template <class Real>
-    REGAIN_HOST_DEVICE Real value(Real number) const
-    {
-        return logarithmic ? detail::exp(number) : number;
     }
 };
 

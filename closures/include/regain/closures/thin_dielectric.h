@@ -53,7 +53,7 @@ public:
                                       ScatterMode mode = ScatterMode::RT,
                                       const Color& reflection_tint = Color(Real(1)),
                                       const Color& transmission_tint = Color(Real(1)),
-                                      const MicrofacetTables& tables = {})
+                                      const AlbedoTables& tables = {})
         : _interface(distribution, eta, mode, reflection_tint, transmission_tint),
           _mirror(distribution, ConstantFresnel<Real>(), tables)
     {}
@@ -69,11 +69,8 @@ public:
         return _interface.transmission_tint();
     }
 
-    REGAIN_HOST_DEVICE const MicrofacetTables& tables() const { return _mirror.tables(); }
-    REGAIN_HOST_DEVICE void set_tables(const MicrofacetTables& tables)
-    {
-        _mirror.set_tables(tables);
-    }
+    REGAIN_HOST_DEVICE const AlbedoTables& tables() const { return _mirror.tables(); }
+    REGAIN_HOST_DEVICE void set_tables(const AlbedoTables& tables) { _mirror.set_tables(tables); }
 
     REGAIN_HOST_DEVICE Traits traits() const
     {
@@ -230,7 +227,7 @@ public:
         Mask _clear;
         Real _side;  // 1 above, -1 below
         typename Mirror::Prepared _mirror;
-        MicrofacetTables _tables;
+        AlbedoTables _tables;
         Color _reflection, _transmission;  // what multiplies the lobes
     };
 

@@ -24,32 +24,31 @@ using Color3 = Imath::Color3<Real>;
 namespace detail {
 
 template <class Real>
-REGAIN_HOST_DEVICE Vec3<Real> select(MaskOf<Real> mask, const Vec3<Real>& a, const Vec3<Real>& b)
+REGAIN_INLINE Vec3<Real> select(MaskOf<Real> mask, const Vec3<Real>& a, const Vec3<Real>& b)
 {
     return {select(mask, a.x, b.x), select(mask, a.y, b.y), select(mask, a.z, b.z)};
 }
 template <class Real>
-REGAIN_HOST_DEVICE Color3<Real> select(MaskOf<Real> mask, const Color3<Real>& a,
-                                       const Color3<Real>& b)
+REGAIN_INLINE Color3<Real> select(MaskOf<Real> mask, const Color3<Real>& a, const Color3<Real>& b)
 {
     return {select(mask, a.x, b.x), select(mask, a.y, b.y), select(mask, a.z, b.z)};
 }
 
 /// f of each channel.
 template <class Real, class F>
-REGAIN_HOST_DEVICE Color3<Real> per_channel(const Color3<Real>& c, const F& f)
+REGAIN_INLINE Color3<Real> per_channel(const Color3<Real>& c, const F& f)
 {
     return {f(c.x), f(c.y), f(c.z)};
 }
 
 template <class Real>
-REGAIN_HOST_DEVICE Real dot(const Vec3<Real>& a, const Vec3<Real>& b)
+REGAIN_INLINE Real dot(const Vec3<Real>& a, const Vec3<Real>& b)
 {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
 template <class Real>
-REGAIN_HOST_DEVICE Vec3<Real> normalised(const Vec3<Real>& w)
+REGAIN_INLINE Vec3<Real> normalised(const Vec3<Real>& w)
 {
     return w * (Real(1) / detail::sqrt(dot(w, w)));
 }
@@ -57,7 +56,7 @@ REGAIN_HOST_DEVICE Vec3<Real> normalised(const Vec3<Real>& w)
 /// |w| = 1 within half a per cent, so that garbage (NaN, infinity, zero) is not taken for a
 /// direction.
 template <class Real>
-REGAIN_HOST_DEVICE MaskOf<Real> is_direction(const Vec3<Real>& w)
+REGAIN_INLINE MaskOf<Real> is_direction(const Vec3<Real>& w)
 {
     const Real length2 = dot(w, w);
     return both<Real>(quiet_less(constant<Real>(0.99), length2),
@@ -71,7 +70,7 @@ constexpr double horizon = 1e-12;
 /// True for a direction on the side of the normal. All of NaN, infinity, zero, the horizon itself
 /// and the other side give false.
 template <class Real>
-REGAIN_HOST_DEVICE MaskOf<Real> is_above_horizon(const Vec3<Real>& w)
+REGAIN_INLINE MaskOf<Real> is_above_horizon(const Vec3<Real>& w)
 {
     return both<Real>(quiet_less(constant<Real>(horizon), w.z), is_direction(w));
 }

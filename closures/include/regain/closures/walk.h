@@ -137,7 +137,57 @@ public:
         /// u in [0, 1)^3. The weight is not eval / pdf: see above.
         REGAIN_HOST_DEVICE Sample<Real> sample(const Vec3<Real>& u) const
         {
-            const WalkPath<Real> p = path(u);
+            return sample_of(path(u));
+        }
+
+        /// A walk under way, for who goes on with many at a time: see wide_walks.h.
+        struct Flight
+        {
+            Vec3<Real> d;  // where it is headed
+            Real area;     // sigma(-d)
+            Color weight;
+            Real bounces;
+            Real first = Real(0);  // the number that the depth of the first hit is drawn by
+            detail::WalkDepth<Real> depth;
+            RandomStream<Real> stream;
+
+            template <class Numbers, class Masks>
+            REGAIN_HOST_DEVICE void each(const Numbers& numbers, const Masks& masks)
+            {
+                for (Real* x :
+                     {&d.x, &d.y, &d.z, &area, &weight.x, &weight.y, &weight.z, &bounces, &first})
+                    numbers(*x);
+                depth.each(numbers, masks);
+            }
+        };
+        /// After the first facet: where it has not left the surface.
+        REGAIN_HOST_DEVICE Mask take_off(const Vec3<Real>& u, Flight& f) const
+        {
+            return start<true>(u, f);
+        }
+        /// One facet more for those in `active`, of which those that leave are taken out.
+        REGAIN_HOST_DEVICE static void bounce(const Walk& closure, Flight& f, Mask& active)
+        {
+            constexpr bool three = Distribution::random_numbers > 2;
+            const Visible visible = closure._distribution.visible(-f.d);
+            const Real x = f.stream.next(), y = f.stream.next();
+            const Vec3<Real> m = visible.sample({x, y, three ? f.stream.next() : Real(0)});
+            const Real step = f.stream.next(), cosine = -detail::dot(f.d, m);
+            f.d = detail::select(active, m * (Real(2) * cosine) + f.d, f.d);
+            f.weight = detail::select(
+                active, f.weight * closure._fresnel.at(detail::clamped(cosine, 0, 1)), f.weight);
+            f.bounces = detail::select(active, f.bounces + Real(1), f.bounces);
+            f.area = area_against(closure._distribution, f.d);
+            active =
+                detail::both<Real>(active, !f.depth.move(f.d.z, f.area, step, f.first, active));
+        }
+        /// Where it has got to; `active` are those that are given up.
+        REGAIN_HOST_DEVICE WalkPath<Real> land(const Flight& f, const Mask& active) const
+        {
+            return finished(f, active);
+        }
+        REGAIN_HOST_DEVICE Sample<Real> sample_of(const WalkPath<Real>& p) const
+        {
             Sample<Real> s;
             s.valid = detail::both<Real>(_valid, p.escaped);
             s.delta = detail::both<Real>(s.valid, _delta);
@@ -195,67 +245,62 @@ public:
         template <bool leaves_at_once, class Join>
         REGAIN_HOST_DEVICE WalkPath<Real> trace(const Vec3<Real>& u, const Join& join) const
         {
-            const Distribution& distribution = _closure._distribution;
+            Flight f;
+            Mask active = start<leaves_at_once>(u, f);
+            for (int n = 1; n < walk_limit && detail::any<Real>(active); ++n)
+            {
+                join(-f.d, f.area, detail::select(active, f.weight, Color(Real(0))), f.depth);
+                bounce(_closure, f, active);
+            }
+            return finished(f, active);
+        }
+
+        // The first facet; where the walk has not left.
+        template <bool leaves_at_once>
+        REGAIN_HOST_DEVICE Mask start(const Vec3<Real>& u, Flight& f) const
+        {
             constexpr bool three = Distribution::random_numbers > 2;
-
             const Vec3<Real> z(Real(0), Real(0), Real(1));
-            Vec3<Real> d = detail::select(_delta, z, _visible.sample(u));
-            Real cosine = detail::dot(_wo, d);
-            d = d * (Real(2) * cosine) - _wo;
-            Visible visible = distribution.visible(-d);
-            Real area = detail::visible_area(visible);
-
-            WalkPath<Real> p;
-            p.weight = _weight * _closure._fresnel.at(clamped(cosine));
-            p.bounces = Real(1);
+            const Vec3<Real> m = detail::select(_delta, z, _visible.sample(u));
+            const Real cosine = detail::dot(_wo, m);
+            f.d = m * (Real(2) * cosine) - _wo;
+            f.area = area_against(_closure._distribution, f.d);
+            f.weight = _weight * _closure._fresnel.at(detail::clamped(cosine, 0, 1));
+            f.bounces = Real(1);
+            f.depth = start();
             Mask active = detail::both<Real>(_valid, !_delta);
-            Depth depth = start();
 
             // The number that the distribution leaves over decides about the first step, so that a
             // path of one bounce draws none.
             const Real spare = detail::saturate(u.z);
             if constexpr (leaves_at_once && !three)
             {
-                active = detail::both<Real>(active, !depth.leaves_at_once(d.z, area, spare));
-                if (!detail::any<Real>(active)) return finished(p, d, active);
+                active = detail::both<Real>(active, !f.depth.leaves_at_once(f.d.z, f.area, spare));
+                if (!detail::any<Real>(active)) return active;
             }
             // Not the stream of u itself, which the distribution may have drawn from.
-            RandomStream<Real> stream(Vec3<Real>(u.z, u.x, u.y));
-            const Real first = stream.next();
-            Real step = three ? stream.next() : spare;
+            f.stream = RandomStream<Real>(Vec3<Real>(u.z, u.x, u.y));
+            f.first = f.stream.next();
+            const Real step = three ? f.stream.next() : spare;
             if constexpr (!leaves_at_once)
             {
-                p.weight *= depth.stay(d.z, area, step, first, active);
+                f.weight *= f.depth.stay(f.d.z, f.area, step, f.first, active);
+                return active;
             }
-            else
-                active = detail::both<Real>(active, !depth.move(d.z, area, step, first, active));
-
-            for (int n = 1; n < walk_limit && detail::any<Real>(active); ++n)
-            {
-                join(-d, area, detail::select(active, p.weight, Color(Real(0))), depth);
-                const Real x = stream.next(), y = stream.next();
-                const Vec3<Real> m = visible.sample({x, y, three ? stream.next() : Real(0)});
-                step = stream.next();
-                cosine = -detail::dot(d, m);
-                d = detail::select(active, m * (Real(2) * cosine) + d, d);
-                p.weight = detail::select(active, p.weight * _closure._fresnel.at(clamped(cosine)),
-                                          p.weight);
-                p.bounces = detail::select(active, p.bounces + Real(1), p.bounces);
-                visible = distribution.visible(-d);
-                area = detail::visible_area(visible);
-                active = detail::both<Real>(active, !depth.move(d.z, area, step, first, active));
-            }
-            return finished(p, d, active);
+            return detail::both<Real>(active, !f.depth.move(f.d.z, f.area, step, f.first, active));
         }
 
-        REGAIN_HOST_DEVICE static Real clamped(const Real& cosine)
+        REGAIN_HOST_DEVICE static Real area_against(const Distribution& distribution,
+                                                    const Vec3<Real>& d)
         {
-            return detail::min(detail::max(cosine, Real(0)), Real(1));
+            return detail::max(distribution.projected_area(-d), detail::constant<Real>(1e-30));
         }
-        REGAIN_HOST_DEVICE static WalkPath<Real> finished(WalkPath<Real> p, const Vec3<Real>& d,
-                                                          const Mask& active)
+        REGAIN_HOST_DEVICE static WalkPath<Real> finished(const Flight& f, const Mask& active)
         {
-            p.wi = detail::normalised(d);  // what the bounces have rounded off
+            WalkPath<Real> p;
+            p.wi = detail::normalised(f.d);  // what the bounces have rounded off
+            p.weight = f.weight;
+            p.bounces = f.bounces;
             p.escaped = !active;
             p.transmitted = Mask(false);
             return p;

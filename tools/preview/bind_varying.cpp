@@ -65,7 +65,7 @@ public:
                 return renderman::PerPointBatch::create(
                     ctx, [&](const renderman::ShadingContext* one, int i) {
                         const auto material = tree.material(k, batch->at(i));
-                        return maker_of(material).batch(one, material, tree.lobe_name(k));
+                        return maker_of(material).single(one, material, tree.lobe_name(k));
                     });
             });
     }

@@ -10,8 +10,8 @@
 
 #include <regain/clarisse/closure_lobe.h>
 #include <regain/osl/closure_bsdf.h>
-#include <regain/renderman/lobe_batch.h>
-#include <regain/shaders/closure_tree.h>
+#include <regain/renderman/wide_batch.h>
+#include <regain/shaders/wide_material.h>
 
 namespace regain::tools::preview {
 
@@ -53,8 +53,11 @@ struct LobeMaker
     /// What the closure reflects and lets through, at a strength of its compensation.
     Imath::C3f (*albedo)(const Material&, float strength, const SeenPoint&);
 
+    /// `single`: one float at a time.
     renderman::LobeBatch* (*batch)(const renderman::ShadingContext*, const Material&,
                                    const char* name);
+    renderman::LobeBatch* (*single)(const renderman::ShadingContext*, const Material&,
+                                    const char* name);
     bool (*add)(const Material&, const PointLobe&);
     void (*add_bsdf)(const Material&, const OslLobe&);
 };
@@ -69,6 +72,20 @@ struct MakesLobes
 {
     static renderman::LobeBatch* batch(const renderman::ShadingContext* ctx,
                                        const LobeMaker::Material& material, const char* name)
+    {
+        // However few points there are: with whom a point is in a batch must not change its bits.
+        const shaders::WideMaker* wide = ctx->lightPath ? nullptr : shaders::wide_maker(material);
+        if (!wide) return single(ctx, material, name);
+        constexpr float whole = 1;
+        return With::call(material, whole, [&](const auto& closure) -> renderman::LobeBatch* {
+            return renderman::WideBatch<std::decay_t<decltype(closure)>>::create(
+                ctx, closure, name, [&](const WideSurface& surface, const WideMemory& memory) {
+                    return wide->prepare(material, whole, ctx->numPts, surface, memory);
+                });
+        });
+    }
+    static renderman::LobeBatch* single(const renderman::ShadingContext* ctx,
+                                        const LobeMaker::Material& material, const char* name)
     {
         return With::call(material, 1.0f, [&](const auto& closure) {
             return renderman::make_batch(ctx, closure, name);
@@ -98,7 +115,7 @@ struct MakesLobes
             return Imath::C3f(a.reflect + a.transmit);
         });
     }
-    static constexpr LobeMaker maker{&albedo, &batch, &add, &add_bsdf};
+    static constexpr LobeMaker maker{&albedo, &batch, &single, &add, &add_bsdf};
 };
 
 /// Of one distribution.

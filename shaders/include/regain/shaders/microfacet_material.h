@@ -212,7 +212,7 @@ public:
             return with_reflection(
                 MicrofacetReflection(d, ConductorFresnel<Real>(Color(c->n), Color(c->k)), _tables),
                 strength, visit);
-        const auto& s = std::get<SchlickSurface>(surface);
+        const auto& s = *std::get_if<SchlickSurface>(&surface);
         return with_reflection(
             MicrofacetReflection(
                 d, SchlickFresnel<Real>(Color(s.F0), Color(s.F82), Color(s.F90), Real(s.exponent)),
@@ -253,7 +253,7 @@ private:
     template <class Real>
     const RandomWalk* random_walk(Real strength) const
     {
-        return strength > Real(0) ? std::get_if<RandomWalk>(&method) : nullptr;
+        return detail::any<Real>(strength > Real(0)) ? std::get_if<RandomWalk>(&method) : nullptr;
     }
     Method gain_method() const
     {

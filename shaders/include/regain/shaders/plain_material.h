@@ -97,7 +97,7 @@ public:
                 return visit(ZeltnerSheen<Real>(Color(s->color), Real(s->roughness)));
             return visit(ContyKullaSheen<Real>(Color(s->color), Real(s->roughness)));
         }
-        const auto& s = std::get<OrenNayarSurface>(surface);
+        const auto& s = *std::get_if<OrenNayarSurface>(&surface);
         return visit(
             OrenNayarDiffuse<Real>(Color(s.color), Real(s.roughness), s.energy_compensation));
     }

@@ -127,6 +127,46 @@ public:
 
 protected:
     ~LobeBatch() = default;
+
+    /// All the members above, of a closure that its material calls `name`.
+    template <class Closure>
+    void describe(const Closure& closure, const char* name)
+    {
+        const Traits traits = closure.traits();
+        discrete = is_delta(closure);
+        mixed = traits.delta && !discrete;
+        transmissive = traits.transmissive;
+        two_media = is_interface(closure);
+        estimates = regain::detail::TakesNumbersInEval<typename Closure::Prepared, float>::value;
+        random_numbers = Closure::random_numbers;
+        straight = passes_straight(closure);
+        ior = relative_index(closure);
+        slot = slot_named(name, two_media);
+    }
+
+    /// look_back() at one point; wo in its frame.
+    template <class Closure>
+    void look_back_at(const ShadingFrame<float>& frame, const Closure& closure, Vec3 wo,
+                      const Vec3& L, Color3* albedo, float* pdf) const
+    {
+        Vec3 wi = frame.to_local(L);
+        if (albedo) *albedo = Color3(0.0f);
+        *pdf = 0;
+        if (!frame.is_on_its_side(L, wi)) return;
+        // Seen from the other side, the frame would be turned there.
+        if (!two_media && wi.z < 0)
+        {
+            wi = Vec3(wi.x, -wi.y, -wi.z);
+            wo = Vec3(wo.x, -wo.y, -wo.z);
+        }
+        const auto back = closure.prepare(wi);
+        if (albedo)
+        {
+            const auto a = regain::expected_albedo(back);
+            *albedo = a.reflect + a.transmit;
+        }
+        if (!discrete) *pdf = back.pdf(wo);
+    }
 };
 
 /// `Used` is the closure of the path: for_light_path(closure) on one from the light.
@@ -211,23 +251,8 @@ public:
         for (int j = 0; j < n; ++j)
         {
             const Point& p = _points[at[j]];
-            Vec3 wi = p.frame.to_local(L[j]), wo = p.prepared.wo();
-            if (albedo) albedo[j] = Color3(0.0f);
-            pdf[j] = 0;
-            if (!p.frame.is_on_its_side(L[j], wi)) continue;
-            // Seen from the other side, the frame would be turned there.
-            if (!two_media && wi.z < 0)
-            {
-                wi = Vec3(wi.x, -wi.y, -wi.z);
-                wo = Vec3(wo.x, -wo.y, -wo.z);
-            }
-            const auto back = _closure.prepare(wi);
-            if (albedo)
-            {
-                const auto a = regain::expected_albedo(back);
-                albedo[j] = a.reflect + a.transmit;
-            }
-            if (!discrete) pdf[j] = back.pdf(wo);
+            look_back_at(p.frame, _closure, p.prepared.wo(), L[j], albedo ? albedo + j : nullptr,
+                         pdf + j);
         }
     }
 
@@ -245,16 +270,7 @@ private:
                  const char* name)
         : _ctx(ctx), _closure(closure), _points(points)
     {
-        const Traits traits = closure.traits();
-        discrete = is_delta(closure);
-        mixed = traits.delta && !discrete;
-        transmissive = traits.transmissive;
-        two_media = is_interface(closure);
-        estimates = stochastic;
-        random_numbers = Closure::random_numbers;
-        straight = passes_straight(closure);
-        ior = relative_index(closure);
-        slot = slot_named(name, two_media);
+        describe(closure, name);
     }
 
     // What the closure of a path from the eye says of V.

@@ -138,7 +138,7 @@ public:
     using Real = RealType;
 
     template <class Distribution>
-    REGAIN_HOST_DEVICE explicit DirectionAxes(const Distribution& distribution)
+    REGAIN_INLINE explicit DirectionAxes(const Distribution& distribution)
         : TableAxes<Real>(distribution), _x(distribution.alpha_x()), _y(distribution.alpha_y())
     {
         _isotropic = detail::all<Real>(_x == _y);
@@ -200,7 +200,7 @@ public:
     }
 
     /// E_ss of a direction as for place(), at most 1; the table is there.
-    REGAIN_HOST_DEVICE Real albedo(const LossTables& tables, const Vec3<Real>& w) const
+    REGAIN_INLINE Real albedo(const LossTables& tables, const Vec3<Real>& w) const
     {
         if (_isotropic) return tables.albedo(*this, w.z);
         if (tables.anisotropy) return corrected_albedo(tables, w);
@@ -236,8 +236,7 @@ private:
     static constexpr double longest_tail = 1 / 0.7;
 
     // By the table `anisotropy`.
-    REGAIN_HOST_DEVICE Real corrected_albedo(const LossTables& tables,
-                                             const Vec3<Real>& w) const
+    REGAIN_HOST_DEVICE Real corrected_albedo(const LossTables& tables, const Vec3<Real>& w) const
     {
         const Real X = _x * w.x, Y = _y * w.y, X2 = X * X, Y2 = Y * Y, tangential = X2 + Y2;
         const Real mu =

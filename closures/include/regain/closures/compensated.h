@@ -22,7 +22,7 @@ public:
     static constexpr bool depends_on_wi = detail::GainDependsOnWi<Gain>::value;
     static constexpr int random_numbers = Lobe::random_numbers;
 
-    REGAIN_HOST_DEVICE Compensated(const Lobe& lobe, const Gain& gain) : _lobe(lobe), _gain(gain) {}
+    REGAIN_INLINE Compensated(const Lobe& lobe, const Gain& gain) : _lobe(lobe), _gain(gain) {}
 
     REGAIN_HOST_DEVICE const Lobe& lobe() const { return _lobe; }
     REGAIN_HOST_DEVICE const Gain& gain() const { return _gain; }
@@ -38,7 +38,7 @@ public:
     class Prepared
     {
     public:
-        REGAIN_HOST_DEVICE Prepared(const Compensated& closure, const Vec3<Real>& wo)
+        REGAIN_INLINE Prepared(const Compensated& closure, const Vec3<Real>& wo)
             : _lobe(closure._lobe.prepare(wo)), _gain(closure._gain, _lobe.wo())
         {
             _lobe.scale_by(closure._gain.at(_lobe.wo()));
@@ -47,7 +47,7 @@ public:
         REGAIN_HOST_DEVICE decltype(auto) wo() const { return _lobe.wo(); }
         REGAIN_HOST_DEVICE void scale_by(const Color& weight) { _lobe.scale_by(weight); }
 
-        REGAIN_HOST_DEVICE Color eval(const Vec3<Real>& wi) const
+        REGAIN_INLINE Color eval(const Vec3<Real>& wi) const
         {
             if constexpr (depends_on_wi)
             {
@@ -62,14 +62,14 @@ public:
         {
             return sample(detail::two_numbers<Compensated>(u));
         }
-        REGAIN_HOST_DEVICE Sample<Real> sample(const Vec3<Real>& u) const
+        REGAIN_INLINE Sample<Real> sample(const Vec3<Real>& u) const
         {
             Sample<Real> s = _lobe.sample(u);
             if constexpr (depends_on_wi) s.weight *= _gain.pair(s.wi);
             return s;
         }
 
-        REGAIN_HOST_DEVICE Real pdf(const Vec3<Real>& wi) const { return _lobe.pdf(wi); }
+        REGAIN_INLINE Real pdf(const Vec3<Real>& wi) const { return _lobe.pdf(wi); }
 
         REGAIN_HOST_DEVICE Albedo<Real> albedo() const
         {
@@ -118,7 +118,7 @@ public:
         std::conditional_t<depends_on_wi, detail::PairGain<Gain, Real>, detail::NoPairGain> _gain;
     };
 
-    REGAIN_HOST_DEVICE Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
+    REGAIN_INLINE Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
 
     // No gain enters a pdf, so none is looked up for it.
     REGAIN_HOST_DEVICE Real pdf(const Vec3<Real>& wo, const Vec3<Real>& wi) const
@@ -134,7 +134,7 @@ private:
 /// The lobe compensated by a method of method_gain.h at strength s in [0, 1]. The tables serve its
 /// gain and, unless the lobe has its own, its albedo.
 template <class Lobe>
-REGAIN_HOST_DEVICE Compensated<Lobe, MethodGain<typename Lobe::Real>> compensated(
+REGAIN_INLINE Compensated<Lobe, MethodGain<typename Lobe::Real>> compensated(
     Lobe lobe, Method method, const MicrofacetTables& tables,
     typename Lobe::Real strength = typename Lobe::Real(1))
 {

@@ -71,8 +71,8 @@ public:
 
     /// `lobe` is a MicrofacetReflection; strength is clamped to [0, 1], NaN becomes 0.
     template <class Lobe>
-    REGAIN_HOST_DEVICE MethodGain(const Lobe& lobe, Method method, const MicrofacetTables& tables,
-                                  Real strength)
+    REGAIN_INLINE MethodGain(const Lobe& lobe, Method method, const MicrofacetTables& tables,
+                             Real strength)
         : _tables(tables), _axes(lobe.distribution())
     {
         const bool needs_average = method == Method::turquin_eq12 || method == Method::series;
@@ -91,7 +91,7 @@ public:
                      detail::all<Real>(distribution.alpha_x() == distribution.alpha_y());
     }
 
-    REGAIN_HOST_DEVICE Color at(const Vec3<Real>& wo) const
+    REGAIN_INLINE Color at(const Vec3<Real>& wo) const
     {
         if (!_bound) return Color(Real(1));
         const Real E = _axes.albedo(_tables, {wo.x, wo.y, detail::saturate(wo.z)});

@@ -63,7 +63,7 @@ public:
     class Prepared
     {
     public:
-        REGAIN_HOST_DEVICE Prepared(const MicrofacetReflection& lobe, const Vec3<Real>& wo)
+        REGAIN_INLINE Prepared(const MicrofacetReflection& lobe, const Vec3<Real>& wo)
             : _lobe(lobe),
               _delta(lobe._distribution.is_delta()),
               _valid(detail::is_above_horizon(wo)),
@@ -176,7 +176,7 @@ public:
         Color _weight;
     };
 
-    REGAIN_HOST_DEVICE Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
+    REGAIN_INLINE Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
 
 private:
     Distribution _distribution;

@@ -140,7 +140,7 @@ public:
     using Real = RealType;
 
     template <class Distribution>
-    REGAIN_HOST_DEVICE explicit TableAxes(const Distribution& distribution)
+    REGAIN_INLINE explicit TableAxes(const Distribution& distribution)
         : _alpha(distribution.effective_alpha()),
           _width_axis(detail::WidthAxisOf<Distribution>::value),
           _width(width_of(_alpha)),
@@ -171,13 +171,13 @@ public:
     }
 
     /// mu in [0, 1].
-    REGAIN_HOST_DEVICE Real directional(const TableView& table, Real mu) const
+    REGAIN_INLINE Real directional(const TableView& table, Real mu) const
     {
         const Real x = cosine(mu);
         return _has_tail ? table.at(x, _width, _tail) : table.at(x, _width);
     }
     /// Coordinate of mu in [0, 1] along the first axis.
-    REGAIN_HOST_DEVICE Real cosine(Real mu) const
+    REGAIN_INLINE Real cosine(Real mu) const
     {
         return _cosine == CosineAxis::tail    ? tail_cosine(mu, _alpha)
                : _cosine == CosineAxis::plain ? plain_cosine(mu, _alpha)
@@ -220,7 +220,7 @@ struct LossTables
 
     /// E_ss at the cosine mu in [0, 1], at most 1.
     template <class Real>
-    REGAIN_HOST_DEVICE Real albedo(const TableAxes<Real>& axes, Real mu) const
+    REGAIN_INLINE Real albedo(const TableAxes<Real>& axes, Real mu) const
     {
         if (fits) return fits->E_ss(mu, axes.alpha());
         return detail::min(value(axes.directional(E_ss, mu)), Real(1));

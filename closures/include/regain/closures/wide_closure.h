@@ -45,6 +45,17 @@ struct WideLanes
         for (int i = 0; i < lanes; ++i) l.from[i] = first + i;
         return l;
     }
+    /// 0, 1, 2 ...
+    struct Numbers
+    {
+        alignas(64) int of[lanes];
+    };
+    static constexpr Numbers numbers()
+    {
+        Numbers n{};
+        for (int i = 0; i < lanes; ++i) n.of[i] = i;
+        return n;
+    }
     static WideLanes none()
     {
         WideLanes l;
@@ -60,6 +71,12 @@ REGAIN_INLINE Real load_lanes(const float* data, std::ptrdiff_t stride,
                               const WideLanes<int(Real::size)>& lanes, float otherwise)
 {
     if (lanes.straight && stride == 1) return Real::load_unaligned(data + lanes.from[0]);
+    if (lanes.straight)
+    {
+        alignas(64) static constexpr auto step = WideLanes<int(Real::size)>::numbers();
+        const IndexOf<Real> at = IndexOf<Real>::load_aligned(step.of) * int(stride);
+        return Real::gather(data + lanes.from[0] * stride, at);
+    }
     alignas(64) float values[Real::size];
     for (std::size_t i = 0; i < Real::size; ++i)
         values[i] = lanes.from[i] < 0 ? otherwise : data[lanes.from[i] * stride];

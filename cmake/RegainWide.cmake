@@ -4,7 +4,11 @@
 # The files of shaders/src/wide, once for each instruction set that the compiler has; which of them
 # is used is decided at run time.
 
-find_package(xsimd REQUIRED)
+find_package(xsimd QUIET)
+if(NOT xsimd_FOUND)
+  message(STATUS "No wide closures: they need xsimd (Debian, Ubuntu: libxsimd-dev)")
+  return()
+endif()
 include(CheckCXXCompilerFlag)
 
 # regain_wide(SET [flag ...])

@@ -23,7 +23,7 @@ check_parts(${SCRATCH}/prefix closures)
 # On many systems all libraries share one include folder, where a stray include would be found.
 file(GLOB_RECURSE headers ${SCRATCH}/prefix/include/*.h)
 foreach(header IN LISTS headers)
-  if(header MATCHES "/closures/xsimd\\.h$")
+  if(header MATCHES "/closures/(xsimd|wide_closure|wide_walks)\\.h$")
     continue()
   endif()
   file(STRINGS ${header} includes REGEX "^ *# *include")

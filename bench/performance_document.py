@@ -89,6 +89,16 @@ def heading(data):
             + text + "\n\n" + "\n".join(f"- {fact}" for fact in facts) + "\n")
 
 
+def steadiness(data):
+    """How far apart the passes were, or nothing where they were too few to say."""
+    spreads = sorted(row["spread"] for row in data["rows"].values())
+    if data["passes"] < 4:
+        return ""
+    middle, most = (100 * spreads[int(len(spreads) * share)] for share in (0.5, 0.9))
+    return "\n" + prose(f"The middle half of a row's times spans {middle:.1f} % of their median in half of the "
+                        f"rows, and at most {most:.1f} % in nine of ten.") + "\n"
+
+
 def reference(d):
     parts = []
     for question in ("eval", "sample", "build"):
@@ -227,14 +237,14 @@ def threads(d):
     found = {}
     for name in d.rows:
         if name.startswith("threads/"):
-            path, count = name.rsplit("/threads:", 1)
-            found.setdefault(path.removesuffix("/real_time"), {})[int(count)] = d.time(name)
+            count = int(name.rsplit("/threads:", 1)[1])
+            found.setdefault(tuple(name.split("/")[1:7]), {})[count] = d.time(name)
     if not found:
         return ""
     counts = sorted({count for times in found.values() for count in times})
     rows = []
     for path, times in sorted(found.items()):
-        _, distribution, lobe, method, _, _, question = path.split("/")
+        distribution, lobe, method, _, _, question = path
         rows.append((f"{distribution} {lobe}", f"`{method}`", question,
                      *(number(ratio(times.get(1), times.get(count))) for count in counts)))
     return section("Threads", "Answers in a given time on that many threads, over those on one.",
@@ -289,5 +299,5 @@ def memory(d):
 
 def text_of(data):
     d = Data(data)
-    return "".join((heading(data), reference(d), targets(d), scalar(d), vectors(d),
+    return "".join((heading(data), reference(d), steadiness(data), targets(d), scalar(d), vectors(d),
                     instruction_counts(d), look_ups(d), threads(d), rendering(data), memory(d)))

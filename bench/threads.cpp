@@ -24,6 +24,7 @@ void add(const std::string& name, const Make& make)
         benchmark::RegisterBenchmark(
             path.c_str(), [=](benchmark::State& state) { asked<float, Ask>(state, make, 0.5f); })
             ->ThreadRange(1, most)
+            ->MinTime(0.05)  // threads take a while to meet
             ->UseRealTime();
     };
     add_question(Eval());

@@ -138,7 +138,7 @@ public:
             _transmission *= weight;
         }
 
-        REGAIN_HOST_DEVICE Color eval(const Vec3<Real>& wi) const
+        REGAIN_INLINE Color eval(const Vec3<Real>& wi) const
         {
             const Terms t = terms(wi);
             return detail::select(t.valid, tint(t.reflected) * (t.weight * t.density),
@@ -146,26 +146,34 @@ public:
         }
 
         /// u.x, u.y: the normal; u.z: reflection where it is below the facet's F.
-        REGAIN_HOST_DEVICE Sample<Real> sample(const Vec3<Real>& u) const
+        REGAIN_INLINE Sample<Real> sample(const Vec3<Real>& u) const
         {
             const Vec3<Real> up(Real(0), Real(0), Real(1));
             const Vec3<Real> m = detail::select(_flat, up, _visible.sample(normal_numbers(u)));
-            const Real cos_facet = detail::saturate(detail::dot(_wo, m));
+            const Real cos_facet = detail::clamped(detail::dot(_wo, m), 0, 1);
             const auto F = _fresnel.split(cos_facet);
             const Mask reflect = chooses_reflection(F.reflectance, detail::saturate(u.z));
 
-            const Refraction<Real> refraction =
-                refract(_wo, detail::select(_narrow, up, m), _fresnel.relative_index());
-            const Vec3<Real> wi =
-                turned(detail::select(reflect, regain::reflect(_wo, m), refraction.wi));
+            Refraction<Real> refraction{regain::reflect(_wo, m), Real(0), Mask(false)};
+            Vec3<Real> scattered = refraction.wi;
+            if (!detail::all<Real>(reflect))
+            {
+                refraction =
+                    refract(_wo, detail::select(_narrow, up, m), _fresnel.relative_index());
+                scattered = detail::select(reflect, scattered, refraction.wi);
+            }
+            const Vec3<Real> wi = turned(scattered);
             const Terms t = terms(wi);
 
             const Mask is_delta = detail::both<Real>(_narrow, _flat | !reflect);
-            const Mask on_its_side = reflect == t.reflected;
+            const Mask on_its_side = !detail::differ<Real>(reflect, t.reflected);
             const Real share = detail::select(reflect, F.reflectance, F.transmittance);
             const Real choice = both_lobes() ? share : Real(1);
             const Real passed = both_lobes() ? Real(1) : share;
-            const Real delta_weight = passed * delta_masking(refraction.wi, t.masking);
+            Real weight = t.weight;
+            if (detail::any<Real>(is_delta))
+                weight = detail::select(is_delta, passed * delta_masking(refraction.wi, t.masking),
+                                        weight);
 
             Sample<Real> s;
             s.pdf = detail::select(is_delta, choice, t.density);
@@ -177,13 +185,11 @@ public:
             s.transmitted = s.valid & !reflect;
             s.pdf = detail::select(s.valid, s.pdf, Real(0));
             s.wi = detail::select(s.valid, wi, up);
-            s.weight = detail::select(
-                s.valid, tint(reflect) * detail::select(is_delta, delta_weight, t.weight),
-                Color(Real(0)));
+            s.weight = detail::select(s.valid, tint(reflect) * weight, Color(Real(0)));
             return s;
         }
 
-        REGAIN_HOST_DEVICE Real pdf(const Vec3<Real>& wi) const
+        REGAIN_INLINE Real pdf(const Vec3<Real>& wi) const
         {
             const Terms t = terms(wi);
             return detail::select(t.valid, t.density, Real(0));
@@ -259,9 +265,9 @@ public:
             return u;
         }
 
-        REGAIN_HOST_DEVICE bool reflects() const { return _lobe._mode != ScatterMode::T; }
-        REGAIN_HOST_DEVICE bool transmits() const { return _lobe._mode != ScatterMode::R; }
-        REGAIN_HOST_DEVICE bool both_lobes() const { return _lobe._mode == ScatterMode::RT; }
+        REGAIN_INLINE bool reflects() const { return _lobe._mode != ScatterMode::T; }
+        REGAIN_INLINE bool transmits() const { return _lobe._mode != ScatterMode::R; }
+        REGAIN_INLINE bool both_lobes() const { return _lobe._mode == ScatterMode::RT; }
 
         REGAIN_HOST_DEVICE Mask chooses_reflection(const Real& F, const Real& u) const
         {
@@ -269,12 +275,12 @@ public:
             return (u < F) | (F >= Real(1));
         }
 
-        REGAIN_HOST_DEVICE Vec3<Real> turned(const Vec3<Real>& w) const
+        REGAIN_INLINE Vec3<Real> turned(const Vec3<Real>& w) const
         {
             return {w.x, w.y, w.z * _side};
         }
 
-        REGAIN_HOST_DEVICE Color tint(const Mask& reflected) const
+        REGAIN_INLINE Color tint(const Mask& reflected) const
         {
             return detail::select(reflected, _reflection, _transmission);
         }
@@ -290,72 +296,87 @@ public:
             Real masking;  // G2 / G1(wo)
         };
 
-        REGAIN_HOST_DEVICE Terms terms(const Vec3<Real>& direction) const
+        REGAIN_INLINE Terms terms(const Vec3<Real>& direction) const
         {
-            const Distribution& distribution = _lobe._distribution;
             const Vec3<Real> up(Real(0), Real(0), Real(1));
-
-            Terms t;
             const Mask possible = detail::both<Real>(_valid, detail::is_off_horizon(direction));
+            if (!detail::any<Real>(possible))
+                return {Mask(true), possible, Real(0), Real(0), Real(1)};
             const Vec3<Real> wi = detail::select(possible, turned(direction), up);
-            t.reflected = wi.z > Real(0);
-
-            // The facet. Where wi is wo's continuation, it is any.
-            Vec3<Real> h = half_vector(wi, t.reflected);
-            Real length2 = detail::dot(h, h);
-            const Mask known = length2 > detail::constant<Real>(1e-20);
-            h = detail::select(known, h, up);
-            length2 = detail::select(known, length2, Real(1));
-            Mask joined(false);
-            if (reflects()) joined = detail::both<Real>(is_reflection(_wo, wi, h), !_flat);
-            if (transmits())
-            {
-                const Mask through = detail::both<Real>(is_transmission(_wo, wi, h), !_narrow);
-                joined = joined | through;
-            }
-            t.valid = detail::both<Real>(possible & known, joined);
-
-            // Cosines about the facet; of the unit half-vector wo.h is half the length of the sum.
-            const Real length = detail::sqrt(length2), inv = Real(1) / length;
-            const Real cos_o = detail::select(t.reflected, Real(0.5f) * length,
-                                              detail::abs(detail::dot(_wo, h)) * inv);
-            const Real cos_i = detail::abs(detail::dot(wi, h)) * inv;
-            const Real c = detail::min(cos_o, Real(1));
+            const Mask reflected = wi.z > Real(0);
 
             const Vec3<Real> wi_up(wi.x, wi.y, detail::abs(wi.z));
-            const Real sigma_i = distribution.projected_area(wi_up);
+            const Real sigma_i = _lobe._distribution.projected_area(wi_up);
             // G2 / cos theta_o of the correlated form, finite at grazing angles.
             const Real shadowing =
                 wi_up.z / (_sigma_o * wi_up.z + sigma_i * _wo.z - _wo.z * wi_up.z);
 
-            const Real D = distribution.D(h, length2);
-            const Real fresnel =
-                detail::all<Real>(t.reflected)
-                    ? _fresnel.reflectance(c)
-                    : detail::select(t.reflected, _fresnel.reflectance(c),
-                                     _fresnel.transmittance(c, detail::min(cos_i, Real(1))));
-            const Real eta = _fresnel.relative_index().eta;
-            const Real refracted_density = (c / _sigma_o) * (eta * eta * cos_i / length2);
+            // One float is on one side.
+            if (detail::all<Real>(reflected)) return reflection(wi, shadowing, possible);
+            const Terms t = transmission(wi, wi_up, shadowing, possible);
+            if (!detail::any<Real>(reflected)) return t;
+            const Terms r = reflection(wi, shadowing, possible);
+            const Mask reflects_here = detail::both<Real>(reflected, r.valid),
+                       passes_here = detail::both<Real>(!reflected, t.valid);
+            const Mask valid = reflects_here | passes_here;
+            return {reflected, valid, detail::select(reflected, r.weight, t.weight),
+                    detail::select(reflected, r.density, t.density),
+                    detail::select(reflected, r.masking, t.masking)};
+        }
 
-            t.masking = detail::select(t.reflected, shadowing * _sigma_o,
-                                       transmission_masking(wi_up, shadowing));
-            t.weight = detail::select(t.reflected, Real(0.25f) * shadowing / _reflected_density,
-                                      t.masking);
-            t.density = D * detail::select(t.reflected, _reflected_density, refracted_density);
-            if (both_lobes())
-                t.density *= fresnel;
-            else
-                t.weight *= fresnel;
+        // Of wi on the side of wo.
+        REGAIN_INLINE Terms reflection(const Vec3<Real>& wi, const Real& shadowing,
+                                       const Mask& possible) const
+        {
+            Terms t{Mask(true), Mask(false), Real(0), Real(0), shadowing * _sigma_o};
+            if (!reflects()) return t;
+            const Facet f(detail::half_vector(_wo, wi));
+            t.valid = detail::both<Real>(
+                detail::both<Real>(possible & f.known, is_reflection(_wo, wi, f.h)), !_flat);
+            // Of the unit half-vector wo.h is half the length of the sum.
+            const Real c = detail::min(Real(0.5f) * detail::sqrt(f.length2), Real(1));
+            t.weight = Real(0.25f) * shadowing / _reflected_density;
+            t.density = _lobe._distribution.D(f.h, f.length2) * _reflected_density;
+            (both_lobes() ? t.density : t.weight) *= _fresnel.reflectance(c);
             return t;
         }
 
-        REGAIN_HOST_DEVICE Vec3<Real> half_vector(const Vec3<Real>& wi, const Mask& reflected) const
+        // Of wi on the other side.
+        REGAIN_INLINE Terms transmission(const Vec3<Real>& wi, const Vec3<Real>& wi_up,
+                                         const Real& shadowing, const Mask& possible) const
         {
-            if (detail::all<Real>(reflected)) return detail::half_vector(_wo, wi);
-            const Vec3<Real> h = detail::refraction_half_vector(_wo, wi, _fresnel.relative_index());
-            if (!detail::any<Real>(reflected)) return h;
-            return detail::select(reflected, detail::half_vector(_wo, wi), h);
+            Terms t{Mask(false), Mask(false), Real(0), Real(0),
+                    transmission_masking(wi_up, shadowing)};
+            if (!transmits()) return t;
+            const Facet f(detail::refraction_half_vector(_wo, wi, _fresnel.relative_index()));
+            t.valid = detail::both<Real>(
+                detail::both<Real>(possible & f.known, is_transmission(_wo, wi, f.h)), !_narrow);
+            const Real inv = Real(1) / detail::sqrt(f.length2);
+            const Real c = detail::min(detail::abs(detail::dot(_wo, f.h)) * inv, Real(1)),
+                       cos_i = detail::abs(detail::dot(wi, f.h)) * inv;
+            const Real eta = _fresnel.relative_index().eta;
+            t.weight = t.masking;
+            t.density = _lobe._distribution.D(f.h, f.length2) *
+                        ((c / _sigma_o) * (eta * eta * cos_i / f.length2));
+            (both_lobes() ? t.density : t.weight) *=
+                _fresnel.transmittance(c, detail::min(cos_i, Real(1)));
+            return t;
         }
+
+        // Where wi is wo's continuation, the facet is any.
+        struct Facet
+        {
+            Mask known;
+            Vec3<Real> h;
+            Real length2;
+
+            REGAIN_INLINE explicit Facet(const Vec3<Real>& sum) : h(sum), length2(detail::dot(h, h))
+            {
+                known = length2 > detail::constant<Real>(1e-20);
+                h = detail::select(known, h, Vec3<Real>(Real(0), Real(0), Real(1)));
+                length2 = detail::select(known, length2, Real(1));
+            }
+        };
 
         REGAIN_HOST_DEVICE Real transmission_masking(const Vec3<Real>& wi_up,
                                                      const Real& shadowing) const

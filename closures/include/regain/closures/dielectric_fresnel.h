@@ -50,7 +50,7 @@ public:
     {
         Real reflectance, transmittance;
     };
-    REGAIN_HOST_DEVICE Split split(Real mu) const
+    REGAIN_INLINE Split split(Real mu) const
     {
         // Keeps 0 / 0 out at grazing incidence on eta = 1.
         const Real tiny = detail::constant<Real>(1e-18);
@@ -70,13 +70,13 @@ public:
         return {detail::select(refracts, detail::min(F, Real(1)), Real(1)),
                 detail::select(refracts, detail::min(T, Real(1)), Real(0))};
     }
-    REGAIN_HOST_DEVICE Real reflectance(Real mu) const { return split(mu).reflectance; }
-    REGAIN_HOST_DEVICE Real transmittance(Real mu) const { return split(mu).transmittance; }
+    REGAIN_INLINE Real reflectance(Real mu) const { return split(mu).reflectance; }
+    REGAIN_INLINE Real transmittance(Real mu) const { return split(mu).transmittance; }
 
     /// 1 - F of a pair of directions that refract into each other: mu_o on the near side, mu_i on
     /// the far side. Where only one of the cosines is known, the other loses its digits near the
     /// critical angle.
-    REGAIN_HOST_DEVICE Real transmittance(Real mu_o, Real mu_i) const
+    REGAIN_INLINE Real transmittance(Real mu_o, Real mu_i) const
     {
         const Real tiny = detail::constant<Real>(1e-18);
         const Real c = detail::max(mu_o, tiny), t = detail::max(mu_i, tiny);

@@ -359,9 +359,11 @@ TEST(AnalyticTables, are_there_for_two_distributions)
     EXPECT_TRUE(has_analytic_tables<Beckmann<double>>);
     EXPECT_FALSE(has_analytic_tables<int>);
     const MicrofacetTables none, fits = analytic_tables<GGX<float>>();
-    for (const auto has : {&MicrofacetTables::has_albedo, &MicrofacetTables::has_average_albedo,
-                           &MicrofacetTables::has_moments, &MicrofacetTables::has_later_bounces,
-                           &MicrofacetTables::has_later_shape})
+    using Has = bool (MicrofacetTables::*)() const;
+    for (const Has has :
+         {Has(&MicrofacetTables::has_albedo), Has(&MicrofacetTables::has_average_albedo),
+          Has(&MicrofacetTables::has_moments), Has(&MicrofacetTables::has_later_bounces),
+          Has(&MicrofacetTables::has_later_shape)})
     {
         EXPECT_TRUE((fits.*has)());
         EXPECT_FALSE((none.*has)());

@@ -350,9 +350,9 @@ TEST(Balanced, a_mirror_and_a_lobe_without_tables_get_no_gain)
     const auto wo = direction<double>(0.4), wi = direction<double>(0.9, 2);
     EXPECT_EQ(BalancedGain(GGX<double>(0.0), ConstantFresnel<double>(), tables, 1.0).pair(wo, wi),
               Triple(1.0));
-    for (TableView MicrofacetTables::*missing :
-         {&MicrofacetTables::E_ss, &MicrofacetTables::q_ms, &MicrofacetTables::mu_ms,
-          &MicrofacetTables::balance})
+    using Table = TableView MicrofacetTables::*;
+    for (Table missing : {Table(&MicrofacetTables::E_ss), Table(&MicrofacetTables::q_ms),
+                          Table(&MicrofacetTables::mu_ms), Table(&MicrofacetTables::balance)})
     {
         MicrofacetTables some = tables;
         some.*missing = {};

@@ -28,8 +28,8 @@ foreach(header IN LISTS headers)
   endif()
   file(STRINGS ${header} includes REGEX "^ *# *include")
   foreach(line IN LISTS includes)
-    if(NOT line MATCHES "<(regain/closures/[a-z0-9_/]+\\.h|Imath/[A-Za-z0-9]+\\.h|[a-z0-9_]+)>")
-      message(FATAL_ERROR "closures may include the standard library and Imath, nothing else:\n"
+    if(NOT line MATCHES "<(regain/closures/[a-z0-9_/]+\\.h|Imath/[A-Za-z0-9]+\\.h|[a-z0-9_]+|emmintrin\\.h)>")
+      message(FATAL_ERROR "closures may include the standard library, Imath and the compiler's intrinsics, nothing else:\n"
         "${header}: ${line}")
     endif()
   endforeach()

@@ -6,7 +6,7 @@
 
 include(${CMAKE_CURRENT_LIST_DIR}/common.cmake)
 
-configure_and_build(${CMAKE_CURRENT_LIST_DIR}/consumer ${SCRATCH}/consumer
+configure_and_build(${CMAKE_CURRENT_LIST_DIR}/consumer ${SCRATCH}/consumer -DREGAIN_BUILD_WIDE=OFF
   -DREGAIN_SOURCE_DIR=${SOURCE_DIR}
   -DREGAIN_BUILD_LUTS=${LUTS} -DREGAIN_BUILD_SHADERS=${SHADERS} -DREGAIN_BUILD_ADAPTERS=${ADAPTERS})
 run(${SCRATCH}/consumer/consumer)

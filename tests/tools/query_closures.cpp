@@ -317,8 +317,9 @@ TEST(query_closures, ndf_is_the_distribution_s)
                {"wm", {0, 0.28, 0.96}}, {"precision", "double"}, {"distribution", name}};
         if (gamma > 0) q["gamma"] = gamma;
         const json a = answer(q);
-        EXPECT_EQ(a["D"], distribution.D({0, 0.28, 0.96}));
-        EXPECT_EQ(a["lambda"], distribution.lambda({0.8, 0, 0.6}));
+        // A compiler may compute constants more exactly than the processor does.
+        EXPECT_DOUBLE_EQ(a["D"].get<double>(), distribution.D({0, 0.28, 0.96}));
+        EXPECT_DOUBLE_EQ(a["lambda"].get<double>(), distribution.lambda({0.8, 0, 0.6}));
     };
     check("beckmann", 0, Beckmann<double>(0.25, 0.5));
     check("gtr", 1.5, GTR<double>(0.25, 0.5, 1.5));

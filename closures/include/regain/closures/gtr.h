@@ -117,7 +117,7 @@ public:
         REGAIN_HOST_DEVICE Vec3<Real> sample(const Vec3<Real>& u) const
         {
             Vec3<Real> numbers(detail::saturate(u.x), detail::saturate(u.y), detail::saturate(u.z));
-            RandomStream<Real> stream(detail::stream_numbers(numbers));
+            RandomStream<Real> stream(numbers);
             // The mixture's D exceeds GTR's by no more than this.
             const Real bound = constant(1 + detail::GtrMixture<Real>::tolerance);
             const Real sure = constant(1 - detail::GtrMixture<Real>::tolerance) / bound;

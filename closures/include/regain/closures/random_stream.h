@@ -77,18 +77,4 @@ private:
     std::uint32_t _counter = 0;
 };
 
-namespace detail {
-
-/// u for a stream, the last number to nine bits. A sum of lobes picks one by that number and hands
-/// on what is left of it, stretched: its last digits differ between instruction sets, and so would
-/// everything that the stream decides.
-template <class Real>
-REGAIN_HOST_DEVICE Vec3<Real> stream_numbers(const Vec3<Real>& u)
-{
-    using Number = NumberTraits<Real>;
-    return {u.x, u.y, Number::to_real(Number::truncate(saturate(u.z) * Real(512)))};
-}
-
-}  // namespace detail
-
 REGAIN_NAMESPACE_END

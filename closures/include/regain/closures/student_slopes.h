@@ -45,7 +45,7 @@ public:
     REGAIN_HOST_DEVICE Vec2<Real> sample(const Vec3<Real>& u) const
     {
         const Mask below = _cotangent < Real(0);
-        RandomStream<Real> stream(stream_numbers(u));
+        RandomStream<Real> stream(u);
         Vec3<Real> numbers = u;
         Vec2<Real> slopes{Real(0), Real(0)};
         Mask done(false);

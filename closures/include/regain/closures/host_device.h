@@ -15,8 +15,11 @@
 
 /// The same before the small functions that everything else is made of, and before those that make
 /// up an eval or a sample. Vectors of floats go through memory where a function is called, which
-/// costs more than such a function does, and the compiler's own estimate does not know that.
-#if defined(__GNUC__) && !defined(__CUDACC__) && !defined(__HIPCC__)
+/// costs more than such a function does, and the compiler's own estimate does not know that. Where
+/// time to compile counts for more, REGAIN_NO_FORCED_INLINE leaves it to the compiler, as
+/// sanitizers do.
+#if defined(__GNUC__) && !defined(__CUDACC__) && !defined(__HIPCC__) && \
+    !defined(__SANITIZE_ADDRESS__) && !defined(REGAIN_NO_FORCED_INLINE)
 #define REGAIN_INLINE inline __attribute__((always_inline))
 #else
 #define REGAIN_INLINE REGAIN_HOST_DEVICE

@@ -346,6 +346,44 @@ TEST(WidePoints, bits_do_not_depend_on_the_company)
         }
 }
 
+// A call about the first few points writes no more than their answers.
+TEST(WidePoints, the_first_points_alone)
+{
+    const auto all = cases(43, 17);
+    const std::size_t few = 21;
+    const Color3<float> untouched(-7.0f);
+    for (const InstructionSet set : vector_sets())
+        for (const NamedMaterial& m : some_materials())
+        {
+            const shaders::WideMaker& maker = *wide_maker(m.material, set);
+            const Results expected = wide_answers(maker, m.material, all);
+            std::vector<Vec3<float>> wo, wi, u;
+            for (const Case& c : all)
+            {
+                wo.push_back(c.wo);
+                wi.push_back(c.wi);
+                u.push_back(c.u);
+            }
+            Arena arena;
+            WideSurface surface;
+            surface.V = ConstTriples3f::of(wo.data());
+            const WidePoints* points =
+                maker.prepare(m.material, 1.0f, int(all.size()), surface, arena.memory());
+            std::vector<Color3<float>> value(all.size(), untouched), weight(all.size(), untouched);
+            const WideSelection first{int(few), nullptr};
+            points->eval(first, ConstTriples3f::of(wi.data()), ConstTriples3f::of(u.data()),
+                         Triples3f::of(value.data()), nullptr);
+            points->sample(first, ConstTriples3f::of(u.data()),
+                           {{}, Triples3f::of(weight.data()), nullptr, nullptr});
+            for (std::size_t i = 0; i < all.size(); ++i)
+            {
+                const bool asked = i < few;
+                EXPECT_TRUE(same_bits(value[i], asked ? expected.value[i] : untouched)) << m.name;
+                EXPECT_TRUE(same_bits(weight[i], asked ? expected.weight[i] : untouched)) << m.name;
+            }
+        }
+}
+
 // Arrays of each component are the same as one array of all three.
 TEST(WidePoints, strides_change_nothing)
 {

@@ -270,7 +270,7 @@ REGAIN_INLINE Real sanitised(const Real& x, double lo, double hi, double otherwi
     return select(quiet_less(number, low), low, select(quiet_less(high, number), high, number));
 }
 
-/// x limited to [lo, hi], of what is known to be a number: x of a NaN may be either.
+/// x limited to [lo, hi]; for what is known to be a number.
 template <class Real>
 REGAIN_INLINE Real clamped(const Real& x, double lo, double hi)
 {

@@ -277,7 +277,7 @@ private:
 
     int count_of(const WideSelection& entries) const
     {
-        return entries.at ? entries.count : _points;
+        return entries.at || entries.count < _points ? entries.count : _points;
     }
 
     // answer(prepared, frame, lanes) until entries begin to end - 1 have been answered; without

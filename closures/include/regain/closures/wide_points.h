@@ -54,7 +54,8 @@ struct WideSamples
 };
 
 /// Which points are asked: entry j of the arrays is about point at[j]. Without `at` it is about
-/// point j. Points in ascending order are quickest, as neighbours are computed together.
+/// point j, and there are no more entries than points. Points in ascending order are quickest, as
+/// neighbours are computed together.
 struct WideSelection
 {
     int count = 0;

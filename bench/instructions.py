@@ -180,11 +180,16 @@ def main():
     return 0
 
 
-if __name__ == "__main__":
+def run(main, name):
+    """Ends the program with what main returns, 2 where it cannot be done, 130 after Ctrl-C."""
     try:
         sys.exit(main())
     except Unavailable as why:
-        print(f"instructions.py: {why}", file=sys.stderr)
+        print(f"{name}: {why}", file=sys.stderr)
         sys.exit(2)
     except KeyboardInterrupt:
         sys.exit(130)
+
+
+if __name__ == "__main__":
+    run(main, "instructions.py")

@@ -42,6 +42,10 @@ public:
     REGAIN_HOST_DEVICE const ConductorFresnel<Real>& conductor() const { return _conductor; }
 
     REGAIN_HOST_DEVICE Color at(Real mu) const { return _conductor.at(mu); }
+    REGAIN_INLINE detail::ChannelsOf<Real> channels_at(Real mu) const
+    {
+        return _conductor.channels_at(mu);
+    }
     REGAIN_HOST_DEVICE Color normal_incidence() const { return _reflectivity; }
     REGAIN_HOST_DEVICE Color mean(const FresnelMoments<Real>& moments) const
     {

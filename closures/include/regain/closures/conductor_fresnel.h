@@ -18,6 +18,7 @@
 
 #pragma once
 
+#include <regain/closures/channels.h>
 #include <regain/closures/fresnel_average.h>
 #include <regain/closures/fresnel_moments.h>
 
@@ -32,13 +33,20 @@ public:
 
     /// n and k per channel, in [0, 1e4], clamped; NaN becomes n = 1 or k = 0.
     REGAIN_HOST_DEVICE ConductorFresnel(const Color& n, const Color& k)
-        : _n(detail::per_channel(n, [](Real v) { return detail::sanitised(v, 0, 1e4, 1); })),
-          _k(detail::per_channel(k, [](Real v) { return detail::sanitised(v, 0, 1e4, 0); }))
+        : _n(detail::channels(
+              detail::per_channel(n, [](Real v) { return detail::sanitised(v, 0, 1e4, 1); }))),
+          _k(detail::channels(
+              detail::per_channel(k, [](Real v) { return detail::sanitised(v, 0, 1e4, 0); })))
     {}
 
-    REGAIN_INLINE Color at(Real mu) const
+    REGAIN_INLINE Color at(Real mu) const { return detail::color(channels_at(mu)); }
+    REGAIN_INLINE detail::ChannelsOf<Real> channels_at(Real mu) const
     {
-        return {channel(_n.x, _k.x, mu), channel(_n.y, _k.y, mu), channel(_n.z, _k.z, mu)};
+        return detail::each_channel(
+            [mu](const auto& n, const auto& k) {
+                return channel(n, k, std::decay_t<decltype(n)>(mu));
+            },
+            _n, _k);
     }
 
     REGAIN_HOST_DEVICE Color normal_incidence() const { return at(Real(1)); }
@@ -55,11 +63,12 @@ public:
     /// F_ss to 1e-8, at 64 evaluations.
     REGAIN_HOST_DEVICE Color exact_average() const
     {
-        return {exact_channel(_n.x, _k.x), exact_channel(_n.y, _k.y), exact_channel(_n.z, _k.z)};
+        const Color a = n(), b = k();
+        return {exact_channel(a.x, b.x), exact_channel(a.y, b.y), exact_channel(a.z, b.z)};
     }
 
-    REGAIN_HOST_DEVICE const Color& n() const { return _n; }
-    REGAIN_HOST_DEVICE const Color& k() const { return _k; }
+    REGAIN_HOST_DEVICE Color n() const { return detail::color(_n); }
+    REGAIN_HOST_DEVICE Color k() const { return detail::color(_k); }
 
 private:
     // Below n = 1 a metal that hardly absorbs has a critical angle.
@@ -70,29 +79,30 @@ private:
                                      detail::min(critical, detail::constant<Real>(0.9999)));
     }
 
-    REGAIN_INLINE static Real channel(Real n, Real k, Real mu)
+    // Of one channel, or of several at once.
+    template <class T>
+    REGAIN_INLINE static T channel(const T& n, const T& k, const T& mu)
     {
         // Keeps 0 / 0 out where n = 0, and where n = 1, k = 0 meets grazing incidence.
-        const Real tiny = detail::constant<Real>(1e-30);
+        const T tiny = detail::constant<T>(1e-30);
 
-        const Real mu2 = mu * mu, s2 = detail::max((Real(1) - mu) * (Real(1) + mu), Real(0));
+        const T mu2 = mu * mu, s2 = detail::max((T(1) - mu) * (T(1) + mu), T(0));
         // Re (e - s2), of metals that are nearly air by what their index differs from 1.
-        const Real nk = n * k,
-                   t0 = detail::select(n > Real(0.5f), (n - Real(1)) * (n + Real(1)) - k * k + mu2,
-                                       (n - k) * (n + k) - s2);
-        const Real modulus = detail::sqrt(t0 * t0 + Real(4) * nk * nk);
-        const Real root = detail::sqrt(Real(0.5f) * (modulus + detail::abs(t0)));
-        const Real a = detail::select(t0 >= Real(0), root, nk / detail::max(root, tiny));
+        const T nk = n * k, t0 = detail::select(n > T(0.5f), (n - T(1)) * (n + T(1)) - k * k + mu2,
+                                                (n - k) * (n + k) - s2);
+        const T modulus = detail::sqrt(t0 * t0 + T(4) * nk * nk);
+        const T root = detail::sqrt(T(0.5f) * (modulus + detail::abs(t0)));
+        const T a = detail::select(t0 >= T(0), root, nk / detail::max(root, tiny));
 
-        const Real t1 = modulus + mu2, t2 = Real(2) * a * mu;
-        const Real t3 = mu2 * modulus + s2 * s2, t4 = t2 * s2;
-        const Real A_s = Real(2) * t2 / detail::max(t1 + t2, tiny);
-        const Real q = Real(2) * t4 / detail::max(t3 + t4, tiny);
+        const T t1 = modulus + mu2, t2 = T(2) * a * mu;
+        const T t3 = mu2 * modulus + s2 * s2, t4 = t2 * s2;
+        const T A_s = T(2) * t2 / detail::max(t1 + t2, tiny);
+        const T q = T(2) * t4 / detail::max(t3 + t4, tiny);
         // Where nothing is reflected rounding may leave less than nothing.
-        return detail::max(Real(1) - Real(0.5f) * (A_s + A_s + q - A_s * q), Real(0));
+        return detail::max(T(1) - T(0.5f) * (A_s + A_s + q - A_s * q), T(0));
     }
 
-    Color _n, _k;
+    detail::ChannelsOf<Real> _n, _k;
 };
 
 REGAIN_NAMESPACE_END

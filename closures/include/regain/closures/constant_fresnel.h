@@ -14,6 +14,7 @@
 
 #pragma once
 
+#include <regain/closures/channels.h>
 #include <regain/closures/fresnel_moments.h>
 
 REGAIN_NAMESPACE_BEGIN
@@ -26,16 +27,17 @@ public:
 
     /// Reflectance in [0, 1] per channel; outside it is clamped, NaN becomes 0.
     REGAIN_HOST_DEVICE explicit ConstantFresnel(const Color3<Real>& value = Color3<Real>(Real(1)))
-        : _value(detail::per_channel(value, [](Real v) { return detail::saturate(v); }))
+        : _value(detail::saturated_channels(value))
     {}
 
-    REGAIN_HOST_DEVICE Color3<Real> at(Real) const { return _value; }
-    REGAIN_HOST_DEVICE Color3<Real> normal_incidence() const { return _value; }
-    REGAIN_HOST_DEVICE Color3<Real> mean(const FresnelMoments<Real>&) const { return _value; }
-    REGAIN_HOST_DEVICE Color3<Real> average() const { return _value; }
+    REGAIN_HOST_DEVICE Color3<Real> at(Real) const { return detail::color(_value); }
+    REGAIN_HOST_DEVICE detail::ChannelsOf<Real> channels_at(Real) const { return _value; }
+    REGAIN_HOST_DEVICE Color3<Real> normal_incidence() const { return at(Real(1)); }
+    REGAIN_HOST_DEVICE Color3<Real> mean(const FresnelMoments<Real>&) const { return at(Real(1)); }
+    REGAIN_HOST_DEVICE Color3<Real> average() const { return at(Real(1)); }
 
 private:
-    Color3<Real> _value;
+    detail::ChannelsOf<Real> _value;
 };
 
 REGAIN_NAMESPACE_END

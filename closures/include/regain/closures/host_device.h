@@ -22,5 +22,5 @@
     !defined(__SANITIZE_ADDRESS__) && !defined(REGAIN_NO_FORCED_INLINE)
 #define REGAIN_INLINE inline __attribute__((always_inline))
 #else
-#define REGAIN_INLINE REGAIN_HOST_DEVICE
+#define REGAIN_INLINE REGAIN_HOST_DEVICE inline
 #endif

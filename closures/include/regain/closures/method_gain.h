@@ -23,6 +23,7 @@
 #pragma once
 
 #include <regain/closures/anisotropy.h>
+#include <regain/closures/channels.h>
 #include <regain/closures/gain.h>
 
 #include <optional>
@@ -84,7 +85,7 @@ public:
         const Real s = detail::saturate(strength);
         const Real E_avg = needs_average ? tables.average_albedo(_axes) : Real(1);
         // A mirror loses nothing to later bounces.
-        _F_ms = F_ms(method, lobe.fresnel(), E_avg) *
+        _F_ms = detail::channels(F_ms(method, lobe.fresnel(), E_avg)) *
                 detail::select(distribution.is_delta(), Real(0), s);
         // Of two widths the tables know to one per cent, which is no promise.
         _preserves = detail::all<Real>(s == Real(1)) &&
@@ -95,7 +96,8 @@ public:
     {
         if (!_bound) return Color(Real(1));
         const Real E = _axes.albedo(_tables, {wo.x, wo.y, detail::saturate(wo.z)});
-        return Color(Real(1)) + _F_ms * ((Real(1) - E) / detail::max(E, least_albedo()));
+        return detail::color(Channels(Real(1)) +
+                             _F_ms * ((Real(1) - E) / detail::max(E, least_albedo())));
     }
 
     /// Every method has F_ms = 1 where F = 1, so at full strength the albedo is 1 there; of an
@@ -103,6 +105,8 @@ public:
     REGAIN_HOST_DEVICE bool energy_preserving() const { return _bound && _preserves; }
 
 private:
+    using Channels = detail::ChannelsOf<Real>;
+
     template <class Fresnel>
     REGAIN_HOST_DEVICE Color F_ms(Method method, const Fresnel& fresnel, Real E_avg) const
     {
@@ -139,7 +143,7 @@ private:
 
     LossTables _tables;
     DirectionAxes<Real> _axes;
-    Color _F_ms = Color(Real(0));
+    Channels _F_ms = Channels(Real(0));
     bool _bound = false, _preserves = false;
 };
 

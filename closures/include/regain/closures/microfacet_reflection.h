@@ -17,6 +17,7 @@
 #pragma once
 
 #include <regain/closures/anisotropy.h>
+#include <regain/closures/channels.h>
 #include <regain/closures/closure.h>
 #include <regain/closures/fresnel_moments.h>
 #include <regain/closures/refraction.h>
@@ -78,13 +79,16 @@ public:
 
         /// Multiplies the closure weight: all that eval, sample and albedo return, and no direction
         /// or pdf.
-        REGAIN_HOST_DEVICE void scale_by(const Color& weight) { _weight *= weight; }
+        REGAIN_HOST_DEVICE void scale_by(const Color& weight)
+        {
+            _weight = _weight * detail::channels(weight);
+        }
 
         REGAIN_INLINE Color eval(const Vec3<Real>& wi) const
         {
             const Terms t = terms(wi);
-            return detail::select(t.valid, _lobe._fresnel.at(t.cos_facet) * _weight * t.value,
-                                  Color(Real(0)));
+            const auto F = detail::fresnel_channels(_lobe._fresnel, t.cos_facet);
+            return detail::select(t.valid, detail::color(F * (_weight * t.value)), Color(Real(0)));
         }
 
         REGAIN_HOST_DEVICE Sample<Real> sample(const Vec2<Real>& u) const
@@ -103,9 +107,10 @@ public:
             s.valid = _valid & (_delta | t.valid);
             s.delta = s.valid & _delta;
             s.wi = detail::select(s.valid, wi, Vec3<Real>(Real(0), Real(0), Real(1)));
-            const Color F = _lobe._fresnel.at(detail::select(_delta, _wo.z, t.cos_facet)) * _weight;
-            s.weight = detail::select(
-                s.valid, F * detail::select(_delta, Real(1), t.value / t.density), Color(Real(0)));
+            const Real cosine = detail::select(_delta, _wo.z, t.cos_facet);
+            const auto F = detail::fresnel_channels(_lobe._fresnel, cosine) * _weight;
+            const Real share = detail::select(_delta, Real(1), t.value / t.density);
+            s.weight = detail::select(s.valid, detail::color(F * share), Color(Real(0)));
             s.pdf = detail::select(s.valid, detail::select(_delta, Real(1), t.density), Real(0));
             return s;
         }
@@ -166,14 +171,14 @@ public:
             const Real E = detail::select(_delta, Real(1), axes.albedo(tables, _wo));
             const Color F = detail::select(_delta, _lobe._fresnel.at(mu),
                                            _lobe._fresnel.mean(tables.moments(axes, mu)));
-            return F * _weight * E;
+            return F * detail::color(_weight) * E;
         }
 
         MicrofacetReflection _lobe;
         Mask _delta, _valid;
         Vec3<Real> _wo;
         decltype(std::declval<const Distribution&>().reflecting(Vec3<Real>())) _visible;
-        Color _weight;
+        detail::ChannelsOf<Real> _weight;
     };
 
     REGAIN_INLINE Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }

@@ -14,6 +14,7 @@
 
 #pragma once
 
+#include <regain/closures/channels.h>
 #include <regain/closures/fresnel_moments.h>
 
 REGAIN_NAMESPACE_BEGIN
@@ -32,48 +33,52 @@ public:
                                                const Color& F90 = Color(Real(1)),
                                                Real exponent = Real(5))
     {
-        const auto clamped = [](Real v) { return detail::saturate(v); };
-        const Color edge = detail::per_channel(F90, clamped);
+        const Channels edge = detail::saturated_channels(F90);
         _exponent = detail::sanitised(exponent, 0, 100, 5);
         // (1 - mu)^0 is 1 at mu = 1, too, which a power by logarithms does not know.
-        _F0 = detail::select(_exponent > Real(0), detail::per_channel(F0, clamped), edge);
+        _F0 = detail::select(_exponent > Real(0), detail::saturated_channels(F0), edge);
         _edge = edge - _F0;
         _is_quintic = detail::all<Real>(_exponent == Real(5));
 
-        const Color tint = detail::per_channel(F82, clamped);
+        const Channels tint = detail::saturated_channels(F82);
         const Real falloff = power(detail::constant<Real>(6.0 / 7.0));
-        _dip = (_F0 + _edge * falloff) * (Color(Real(1)) - tint) *
+        _dip = (_F0 + _edge * falloff) * (Channels(Real(1)) - tint) *
                detail::constant<Real>(1.0 / dip_at_82);
     }
 
-    REGAIN_INLINE Color at(Real mu) const
+    REGAIN_INLINE Color at(Real mu) const { return detail::color(channels_at(mu)); }
+    REGAIN_INLINE detail::ChannelsOf<Real> channels_at(Real mu) const
     {
-        const Real x = Real(1) - mu, x2 = x * x;
-        const Real falloff = power(x), dip = mu * x2 * x2 * x2;
+        const Real x = Real(1) - mu, x2 = x * x, x5 = x2 * x2 * x;
+        const Real falloff = _is_quintic ? x5 : other_power(x), dip = x5 * (x * mu);
         // A dark F0 with a dark F82 would go negative between the two.
-        return detail::per_channel(_F0 + _edge * falloff - _dip * dip,
-                                   [](Real v) { return detail::clamped(v, 0, 1); });
+        return detail::each_channel([](const auto& v) { return detail::clamped(v, 0, 1); },
+                                    _F0 + _edge * falloff - _dip * dip);
     }
 
-    REGAIN_HOST_DEVICE Color normal_incidence() const { return _F0; }
+    REGAIN_HOST_DEVICE Color normal_incidence() const { return detail::color(_F0); }
 
     /// Exact for the exponent 5, unless F is clamped.
     REGAIN_HOST_DEVICE Color mean(const FresnelMoments<Real>& moments) const
     {
         const Real falloff = _is_quintic ? moments.falloff : power(Real(1) - moments.cosine());
-        return detail::per_channel(_F0 + _edge * falloff - _dip * moments.dip,
+        return detail::per_channel(detail::color(_F0 + _edge * falloff - _dip * moments.dip),
                                    [](Real v) { return detail::saturate(v); });
     }
 
     REGAIN_HOST_DEVICE Color average() const
     {
         const Real n = _exponent;
-        const Color closed_form = _F0 + _edge * (Real(2) / ((n + Real(1)) * (n + Real(2)))) -
-                                  _dip * detail::constant<Real>(1.0 / 126.0);
+        const Color closed_form =
+            detail::color(_F0 + _edge * (Real(2) / ((n + Real(1)) * (n + Real(2)))) -
+                          _dip * detail::constant<Real>(1.0 / 126.0));
         // Where F is clamped the closed form, which knows nothing of it, is too low.
-        const Color lowest =
-            detail::per_channel(_edge, [](Real e) { return detail::min(e, Real(0)); });
-        const Color room = _F0 + lowest - _dip * detail::constant<Real>(dip_at_82);
+        const Channels lowest = detail::each_channel(
+            [](const auto& e) {
+                return detail::min(e, detail::constant<std::decay_t<decltype(e)>>(0));
+            },
+            _edge);
+        const Color room = detail::color(_F0 + lowest - _dip * detail::constant<Real>(dip_at_82));
         const MaskOf<Real> exact = detail::min(room.x, detail::min(room.y, room.z)) >= Real(0);
         if (detail::all<Real>(exact)) return closed_form;
         const Color sum = average_by_quadrature();
@@ -83,16 +88,18 @@ public:
     }
 
 private:
+    using Channels = detail::ChannelsOf<Real>;
+
     // mu (1 - mu)^6 at mu = 1/7, where it is largest.
     static constexpr double dip_at_82 = 46656.0 / 823543.0;
 
-    REGAIN_INLINE Real power(Real x) const
+    REGAIN_HOST_DEVICE Real power(Real x) const
     {
-        if (_is_quintic)
-        {
-            const Real x2 = x * x;
-            return x2 * x2 * x;
-        }
+        const Real x2 = x * x;
+        return _is_quintic ? x2 * x2 * x : other_power(x);
+    }
+    REGAIN_HOST_DEVICE Real other_power(Real x) const
+    {
         return detail::pow(detail::max(x, Real(0)), _exponent);
     }
 
@@ -108,7 +115,7 @@ private:
         return sum;
     }
 
-    Color _F0, _edge, _dip;
+    Channels _F0, _edge, _dip;
     Real _exponent;
     bool _is_quintic;
 };

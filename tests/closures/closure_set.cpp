@@ -45,8 +45,7 @@ template <class F>
 auto integrate(const F& f)
 {
     constexpr int n = 200;
-    decltype(f(Vec3<double>())) sum{};
-    sum = sum * 0.0;
+    auto sum = f(direction<double>(1, 0)) * 0.0;
     for (int i = 0; i < n; ++i)
         for (int j = 0; j < n; ++j)
         {

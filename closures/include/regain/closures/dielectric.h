@@ -30,6 +30,7 @@
 #pragma once
 
 #include <regain/closures/beta_function.h>
+#include <regain/closures/channels.h>
 #include <regain/closures/closure.h>
 #include <regain/closures/dielectric_fresnel.h>
 #include <regain/closures/dielectric_tables.h>
@@ -55,6 +56,7 @@ public:
     using Real = typename Distribution::Real;
     using Mask = MaskOf<Real>;
     using Color = Color3<Real>;
+    using Channels = detail::ChannelsOf<Real>;
     static constexpr int random_numbers = 3;
 
     /// The bound of |eta - 1| alpha: directions are known to an ulp, and the half-vector of two
@@ -73,10 +75,8 @@ public:
         const DielectricAlbedoTables& tables = {})
         : _distribution(distribution),
           _eta(RelativeIndex<Real>::of(eta)),
-          _reflection_tint(
-              detail::per_channel(reflection_tint, [](Real v) { return detail::saturate(v); })),
-          _transmission_tint(
-              detail::per_channel(transmission_tint, [](Real v) { return detail::saturate(v); })),
+          _reflection_tint(detail::saturated_channels(reflection_tint)),
+          _transmission_tint(detail::saturated_channels(transmission_tint)),
           _mode(mode),
           _shadowing(shadowing),
           _tables(tables)
@@ -85,8 +85,8 @@ public:
     REGAIN_HOST_DEVICE const Distribution& distribution() const { return _distribution; }
     REGAIN_HOST_DEVICE Real eta() const { return _eta.eta; }
     REGAIN_HOST_DEVICE ScatterMode scatter_mode() const { return _mode; }
-    REGAIN_HOST_DEVICE const Color& reflection_tint() const { return _reflection_tint; }
-    REGAIN_HOST_DEVICE const Color& transmission_tint() const { return _transmission_tint; }
+    REGAIN_HOST_DEVICE Color reflection_tint() const { return detail::color(_reflection_tint); }
+    REGAIN_HOST_DEVICE Color transmission_tint() const { return detail::color(_transmission_tint); }
     REGAIN_HOST_DEVICE TransmissionShadowing transmission_shadowing() const { return _shadowing; }
 
     REGAIN_HOST_DEVICE const DielectricAlbedoTables& tables() const { return _tables; }
@@ -134,15 +134,16 @@ public:
         /// or pdf.
         REGAIN_HOST_DEVICE void scale_by(const Color& weight)
         {
-            _reflection *= weight;
-            _transmission *= weight;
+            const Channels w = detail::channels(weight);
+            _reflection = _reflection * w;
+            _transmission = _transmission * w;
         }
 
         REGAIN_INLINE Color eval(const Vec3<Real>& wi) const
         {
             const Terms t = terms(wi);
-            return detail::select(t.valid, tint(t.reflected) * (t.weight * t.density),
-                                  Color(Real(0)));
+            return detail::select(
+                t.valid, detail::color(tint(t.reflected) * (t.weight * t.density)), Color(Real(0)));
         }
 
         /// u.x, u.y: the normal; u.z: reflection where it is below the facet's F.
@@ -185,7 +186,8 @@ public:
             s.transmitted = s.valid & !reflect;
             s.pdf = detail::select(s.valid, s.pdf, Real(0));
             s.wi = detail::select(s.valid, wi, up);
-            s.weight = detail::select(s.valid, tint(reflect) * weight, Color(Real(0)));
+            s.weight =
+                detail::select(s.valid, detail::color(tint(reflect) * weight), Color(Real(0)));
             return s;
         }
 
@@ -206,11 +208,12 @@ public:
             const Real E = _lobe._tables.albedo(_lobe._distribution, eta, _wo);
             const Real share = _lobe._tables.reflected_share(_lobe._distribution, eta, _wo);
             const Color none(Real(0));
-            return {
-                reflects() ? _reflection * detail::select(_flat, F.reflectance, E * share) : none,
-                transmits()
-                    ? _transmission * detail::select(_flat, F.transmittance, E * (Real(1) - share))
-                    : none};
+            return {reflects() ? detail::color(_reflection) *
+                                     detail::select(_flat, F.reflectance, E * share)
+                               : none,
+                    transmits() ? detail::color(_transmission) *
+                                      detail::select(_flat, F.transmittance, E * (Real(1) - share))
+                                : none};
         }
 
     private:
@@ -231,9 +234,11 @@ public:
               _reflection(lobe._reflection_tint * detail::select(valid, Real(1), Real(0))),
               _transmission(lobe._transmission_tint * detail::select(valid, Real(1), Real(0)))
         {
-            _reflected_density = Real(0.25f) / _sigma_o;
+            _inv_sigma_o = Real(1) / _sigma_o;
+            _reflected_density = Real(0.25f) * _inv_sigma_o;
             if constexpr (may_leave_out_normals)
                 if (!transmits()) _reflected_density = _visible.reflected_density();
+            _reflected_weight = Real(0.25f) / _reflected_density;
             if (_lobe._shadowing == TransmissionShadowing::beta && transmits())
                 _lambda_o = _lobe._distribution.lambda(_wo);
         }
@@ -280,7 +285,7 @@ public:
             return {w.x, w.y, w.z * _side};
         }
 
-        REGAIN_INLINE Color tint(const Mask& reflected) const
+        REGAIN_INLINE Channels tint(const Mask& reflected) const
         {
             return detail::select(reflected, _reflection, _transmission);
         }
@@ -331,13 +336,13 @@ public:
             Terms t{Mask(true), Mask(false), Real(0), Real(0), shadowing * _sigma_o};
             if (!reflects()) return t;
             const Facet f(detail::half_vector(_wo, wi));
-            t.valid = detail::both<Real>(
-                detail::both<Real>(possible & f.known, is_reflection(_wo, wi, f.h)), !_flat);
+            // Where both are above, so is the facet that lies half-way, and it faces both.
+            t.valid = detail::both<Real>(possible & f.known, !_flat);
             // Of the unit half-vector wo.h is half the length of the sum.
-            const Real c = detail::min(Real(0.5f) * detail::sqrt(f.length2), Real(1));
-            t.weight = Real(0.25f) * shadowing / _reflected_density;
+            const Real c2 = detail::min(Real(0.25f) * f.length2, Real(1));
+            t.weight = shadowing * _reflected_weight;
             t.density = _lobe._distribution.D(f.h, f.length2) * _reflected_density;
-            (both_lobes() ? t.density : t.weight) *= _fresnel.reflectance(c);
+            (both_lobes() ? t.density : t.weight) *= _fresnel.split_of_square(c2).reflectance;
             return t;
         }
 
@@ -349,17 +354,16 @@ public:
                     transmission_masking(wi_up, shadowing)};
             if (!transmits()) return t;
             const Facet f(detail::refraction_half_vector(_wo, wi, _fresnel.relative_index()));
-            t.valid = detail::both<Real>(
-                detail::both<Real>(possible & f.known, is_transmission(_wo, wi, f.h)), !_narrow);
-            const Real inv = Real(1) / detail::sqrt(f.length2);
-            const Real c = detail::min(detail::abs(detail::dot(_wo, f.h)) * inv, Real(1)),
-                       cos_i = detail::abs(detail::dot(wi, f.h)) * inv;
-            const Real eta = _fresnel.relative_index().eta;
+            // is_transmission(), of which the sides of wo and wi are known here.
+            const Real near = detail::dot(_wo, f.h), far = -detail::dot(wi, f.h);
+            const Mask faces = (f.h.z > Real(0)) & (near > Real(0)) & (far > Real(0));
+            t.valid = detail::both<Real>(possible & f.known & faces, !_narrow);
+            const Real inv = Real(1) / f.length2, eta = _fresnel.relative_index().eta;
             t.weight = t.masking;
             t.density = _lobe._distribution.D(f.h, f.length2) *
-                        ((c / _sigma_o) * (eta * eta * cos_i / f.length2));
-            (both_lobes() ? t.density : t.weight) *=
-                _fresnel.transmittance(c, detail::min(cos_i, Real(1)));
+                        (_inv_sigma_o * (eta * near * inv) * (eta * far * inv));
+            // Of the cosines, near and far over the length of h, nothing else is needed.
+            (both_lobes() ? t.density : t.weight) *= _fresnel.transmittance(near, far);
             return t;
         }
 
@@ -395,7 +399,7 @@ public:
             const Mask rough = detail::both<Real>(_narrow, !_flat);
             if (!detail::any<Real>(rough)) return detail::select(_flat, Real(1), masking);
             const Real whole = detail::abs(refracted.z), mu = _wo.z;
-            const Real z = detail::min(mu + (whole - mu) * (mu / _sigma_o), Real(1));
+            const Real z = detail::min(mu + (whole - mu) * (mu * _inv_sigma_o), Real(1));
             const Real tangential2 = refracted.x * refracted.x + refracted.y * refracted.y;
             const Real wanted2 = detail::max(Real(1) - z * z, Real(0));
             const Real scale =
@@ -404,7 +408,8 @@ public:
             const Real correlated =
                 _sigma_o * z /
                 (_sigma_o * z + _lobe._distribution.projected_area(wi) * mu - mu * z);
-            return detail::select(_flat, Real(1), transmission_masking(wi, correlated / _sigma_o));
+            return detail::select(_flat, Real(1),
+                                  transmission_masking(wi, correlated * _inv_sigma_o));
         }
 
         Dielectric _lobe;
@@ -413,8 +418,10 @@ public:
         Vec3<Real> _wo;  // above
         DielectricFresnel<Real> _fresnel;
         Visible _visible;
-        Real _sigma_o, _reflected_density, _lambda_o = Real(0);
-        Color _reflection, _transmission;  // what multiplies the lobes
+        Real _sigma_o, _inv_sigma_o;
+        Real _reflected_density, _reflected_weight;  // what turns D and G2 into them
+        Real _lambda_o = Real(0);
+        Channels _reflection, _transmission;  // what multiplies the lobes
     };
 
     REGAIN_HOST_DEVICE Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
@@ -422,7 +429,7 @@ public:
 private:
     Distribution _distribution;
     RelativeIndex<Real> _eta;
-    Color _reflection_tint, _transmission_tint;
+    Channels _reflection_tint, _transmission_tint;
     ScatterMode _mode;
     TransmissionShadowing _shadowing;
     DielectricAlbedoTables _tables;

@@ -50,37 +50,21 @@ public:
     {
         Real reflectance, transmittance;
     };
-    REGAIN_INLINE Split split(Real mu) const
-    {
-        // Keeps 0 / 0 out at grazing incidence on eta = 1.
-        const Real tiny = detail::constant<Real>(1e-18);
-        const Real c = detail::max(mu, tiny), k = _eta.square_minus_one();
-        const Real eta2 = _eta.eta * _eta.eta, g2 = _eta.g2(c);
-        const MaskOf<Real> refracts = g2 > Real(0);
-        const Real g = detail::sqrt(detail::select(refracts, g2, Real(1)));
-
-        const Real inv_s = Real(1) / (g + c), inv_p = Real(1) / (eta2 * c + g);
-        const Real r_s = k * inv_s * inv_s;
-        // (eta^2 + 1) c^2 - 1 of a small eta, head on, is eta^2.
-        const Real over = eta2 * c * c - (Real(1) - c) * (Real(1) + c);
-        const Real r_p = k * over * inv_p * inv_p;
-        const Real F = Real(0.5f) * (r_s * r_s + r_p * r_p);
-        // A product of quotients: c g underflows before it is divided by squares.
-        const Real T = Real(2) * (c * inv_s * (g * inv_s) + eta2 * (c * inv_p) * (g * inv_p));
-        return {detail::select(refracts, detail::min(F, Real(1)), Real(1)),
-                detail::select(refracts, detail::min(T, Real(1)), Real(0))};
-    }
+    REGAIN_INLINE Split split(Real mu) const { return split(mu, mu * mu); }
+    /// The same of the square of mu.
+    REGAIN_INLINE Split split_of_square(Real mu2) const { return split(detail::sqrt(mu2), mu2); }
     REGAIN_INLINE Real reflectance(Real mu) const { return split(mu).reflectance; }
     REGAIN_INLINE Real transmittance(Real mu) const { return split(mu).transmittance; }
 
     /// 1 - F of a pair of directions that refract into each other: mu_o on the near side, mu_i on
-    /// the far side. Where only one of the cosines is known, the other loses its digits near the
-    /// critical angle.
+    /// the far side, each up to a positive factor of both. Where only one of the cosines is known,
+    /// the other loses its digits near the critical angle.
     REGAIN_INLINE Real transmittance(Real mu_o, Real mu_i) const
     {
         const Real tiny = detail::constant<Real>(1e-18);
         const Real c = detail::max(mu_o, tiny), t = detail::max(mu_i, tiny);
-        const Real inv_s = Real(1) / (c + _eta.eta * t), inv_p = Real(1) / (_eta.eta * c + t);
+        const Real s = c + _eta.eta * t, p = _eta.eta * c + t, inv = Real(1) / (s * p);
+        const Real inv_s = p * inv, inv_p = s * inv;
         const Real T = Real(2) * _eta.eta * (c * inv_s * (t * inv_s) + c * inv_p * (t * inv_p));
         return detail::min(T, Real(1));
     }
@@ -110,6 +94,28 @@ public:
     }
 
 private:
+    REGAIN_INLINE Split split(Real mu, Real mu2) const
+    {
+        // Keeps 0 / 0 out at grazing incidence on eta = 1.
+        const Real tiny = detail::constant<Real>(1e-18);
+        const Real c = detail::max(mu, tiny), k = _eta.square_minus_one();
+        const Real eta2 = _eta.eta * _eta.eta, g2 = _eta.g2(c, detail::max(mu2, tiny * tiny));
+        const MaskOf<Real> refracts = g2 > Real(0);
+        const Real g = detail::sqrt(detail::select(refracts, g2, Real(1)));
+
+        // One division for two; neither factor is small, but where both are.
+        const Real s = g + c, p = eta2 * c + g, inv = Real(1) / (s * p);
+        const Real inv_s = p * inv, inv_p = s * inv;
+        const Real r_s = k * inv_s * inv_s;
+        // (eta^2 + 1) c^2 - 1 of a small eta, head on, is eta^2.
+        const Real over = eta2 * c * c - (Real(1) - c) * (Real(1) + c);
+        const Real r_p = k * over * inv_p * inv_p;
+        const Real F = Real(0.5f) * (r_s * r_s + r_p * r_p);
+        // A product of quotients: c g underflows before it is divided by squares.
+        const Real T = Real(2) * (c * inv_s * (g * inv_s) + eta2 * (c * inv_p) * (g * inv_p));
+        return {detail::select(refracts, detail::min(F, Real(1)), Real(1)),
+                detail::select(refracts, detail::min(T, Real(1)), Real(0))};
+    }
     REGAIN_HOST_DEVICE static Real average_entering(const RelativeIndex<Real>& index)
     {
         const Real n = detail::max(index.eta, Real(1));

@@ -70,8 +70,8 @@ public:
 
     REGAIN_HOST_DEVICE const Distribution& distribution() const { return _lobe.distribution(); }
     REGAIN_HOST_DEVICE Real eta() const { return _lobe.eta(); }
-    REGAIN_HOST_DEVICE const Color& reflection_tint() const { return _lobe.reflection_tint(); }
-    REGAIN_HOST_DEVICE const Color& transmission_tint() const { return _lobe.transmission_tint(); }
+    REGAIN_HOST_DEVICE Color reflection_tint() const { return _lobe.reflection_tint(); }
+    REGAIN_HOST_DEVICE Color transmission_tint() const { return _lobe.transmission_tint(); }
     REGAIN_HOST_DEVICE int eval_samples() const { return _eval_samples; }
 
     REGAIN_HOST_DEVICE Traits traits() const

@@ -54,10 +54,12 @@ struct RelativeIndex
     /// g^2 = eta^2 - (1 - c^2) of the cosine c in [0, 1]: not positive where all is reflected. Near
     /// 1 by what eta differs from it, which is all there is at grazing angles; else by eta, which
     /// is all there is head on where eta is small.
-    REGAIN_INLINE Real g2(Real c) const
+    REGAIN_INLINE Real g2(Real c) const { return g2(c, c * c); }
+    /// Where c^2 is known before c is.
+    REGAIN_INLINE Real g2(Real c, Real c2) const
     {
         return detail::select(eta < Real(0.5f), eta * eta - (Real(1) - c) * (Real(1) + c),
-                              square_minus_one() + c * c);
+                              square_minus_one() + c2);
     }
 };
 

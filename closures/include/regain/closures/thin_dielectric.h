@@ -63,11 +63,8 @@ public:
     REGAIN_HOST_DEVICE const Mirror& mirror() const { return _mirror; }
     REGAIN_HOST_DEVICE Real eta() const { return _interface.eta(); }
     REGAIN_HOST_DEVICE ScatterMode scatter_mode() const { return _interface.scatter_mode(); }
-    REGAIN_HOST_DEVICE const Color& reflection_tint() const { return _interface.reflection_tint(); }
-    REGAIN_HOST_DEVICE const Color& transmission_tint() const
-    {
-        return _interface.transmission_tint();
-    }
+    REGAIN_HOST_DEVICE Color reflection_tint() const { return _interface.reflection_tint(); }
+    REGAIN_HOST_DEVICE Color transmission_tint() const { return _interface.transmission_tint(); }
 
     REGAIN_HOST_DEVICE const AlbedoTables& tables() const { return _mirror.tables(); }
     REGAIN_HOST_DEVICE void set_tables(const AlbedoTables& tables) { _mirror.set_tables(tables); }

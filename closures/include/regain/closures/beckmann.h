@@ -50,7 +50,7 @@ public:
     /// Widths along x and y in [0, 1]; outside they are clamped, NaN becomes 1. One axis narrower
     /// than delta_alpha is widened to it unless both are.
     REGAIN_HOST_DEVICE explicit Beckmann(Real alpha_x, Real alpha_y) : Widths(alpha_x, alpha_y) {}
-    REGAIN_HOST_DEVICE explicit Beckmann(Real alpha) : Beckmann(alpha, alpha) {}
+    REGAIN_HOST_DEVICE explicit Beckmann(Real alpha) : Widths(alpha) {}
 
     /// Of slopes, which have none: see anisotropy.h.
     REGAIN_HOST_DEVICE Real tail_length() const { return Real(0); }

@@ -11,6 +11,10 @@
 
 REGAIN_NAMESPACE_BEGIN
 
+/// Asks Compensated to build its gain.
+struct BuildGain
+{};
+
 template <class LobeType, class GainType>
 class Compensated : public Shorthands<Compensated<LobeType, GainType>, typename LobeType::Real>
 {
@@ -23,6 +27,12 @@ public:
     static constexpr int random_numbers = Lobe::random_numbers;
 
     REGAIN_INLINE Compensated(const Lobe& lobe, const Gain& gain) : _lobe(lobe), _gain(gain) {}
+
+    /// With Gain(arguments...), which is built where it stays.
+    template <class... Arguments>
+    REGAIN_INLINE Compensated(BuildGain, const Lobe& lobe, const Arguments&... arguments)
+        : _lobe(lobe), _gain(arguments...)
+    {}
 
     REGAIN_HOST_DEVICE const Lobe& lobe() const { return _lobe; }
     REGAIN_HOST_DEVICE const Gain& gain() const { return _gain; }
@@ -139,7 +149,7 @@ REGAIN_INLINE Compensated<Lobe, MethodGain<typename Lobe::Real>> compensated(
     typename Lobe::Real strength = typename Lobe::Real(1))
 {
     if (!lobe.tables().has_albedo()) lobe.set_tables(tables);
-    return {lobe, MethodGain<typename Lobe::Real>(lobe, method, tables, strength)};
+    return {BuildGain(), lobe, lobe, method, tables, strength};
 }
 
 /// The lobe with a gain hook of the caller's.

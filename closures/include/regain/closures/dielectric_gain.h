@@ -101,8 +101,7 @@ REGAIN_HOST_DEVICE
                 typename Distribution::Real strength = typename Distribution::Real(1))
 {
     if (!lobe.tables()) lobe.set_tables(tables);
-    return {lobe,
-            DielectricGain<typename Distribution::Real>(lobe, method, tables, mirror, strength)};
+    return {BuildGain(), lobe, lobe, method, tables, mirror, strength};
 }
 /// The same for modes RT and T.
 template <class Distribution>

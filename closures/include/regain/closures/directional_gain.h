@@ -104,7 +104,7 @@ REGAIN_HOST_DEVICE Compensated<Lobe, DirectionalGain<typename Lobe::Fresnel>> di
     typename Lobe::Real strength = typename Lobe::Real(1))
 {
     if (!lobe.tables().has_albedo()) lobe.set_tables(tables);
-    return {lobe, {lobe.distribution(), lobe.fresnel(), tables, strength}};
+    return {BuildGain(), lobe, lobe.distribution(), lobe.fresnel(), tables, strength};
 }
 
 REGAIN_NAMESPACE_END

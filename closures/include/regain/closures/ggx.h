@@ -49,7 +49,8 @@ public:
                                     NormalSampling sampling = NormalSampling::bounded)
         : Widths(alpha_x, alpha_y), _sampling(sampling)
     {}
-    REGAIN_HOST_DEVICE explicit GGX(Real alpha) : GGX(alpha, alpha) {}
+    REGAIN_HOST_DEVICE explicit GGX(Real alpha) : Widths(alpha), _sampling(NormalSampling::bounded)
+    {}
 
     /// Of slopes: see anisotropy.h.
     REGAIN_HOST_DEVICE Real tail_length() const { return Real(1); }

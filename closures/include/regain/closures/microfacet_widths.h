@@ -59,6 +59,16 @@ protected:
         _normalisation = constant<Real>(0.318309886183790671538) * _inv_alpha_x * _inv_alpha_y;
     }
 
+    /// The same of one width.
+    REGAIN_HOST_DEVICE explicit MicrofacetWidths(Real alpha)
+    {
+        const Real bound = constant<Real>(delta_alpha), a = sanitised(alpha, 0, 1, 1);
+        _delta = a <= bound;
+        _alpha_x = _alpha_y = detail::max(a, bound);
+        _inv_alpha_x = _inv_alpha_y = Real(1) / _alpha_x;
+        _normalisation = constant<Real>(0.318309886183790671538) * _inv_alpha_x * _inv_alpha_y;
+    }
+
     /// Squared length of the part of w along the surface, stretched by the widths.
     REGAIN_HOST_DEVICE Real tangential2(const Vec3<Real>& w) const
     {

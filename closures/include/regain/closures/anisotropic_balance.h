@@ -50,12 +50,13 @@ public:
     template <class Distribution>
     REGAIN_HOST_DEVICE DirectionalBalance(const Distribution& distribution,
                                           const MicrofacetTables& tables)
-        : _balance(tables.balance),
+        : _bound(bool(tables.balance)),
           _axes(distribution),
           _x(distribution.alpha_x()),
           _y(distribution.alpha_y())
     {
         _isotropic = detail::all<Real>(_x == _y);
+        if (_bound) _row = _axes.row_of(tables.balance);
         if (_isotropic || !tables.balance_anisotropy) return;
         _anisotropy = *tables.balance_anisotropy;
         const Real wider = detail::max(_x, _y), narrower = detail::min(_x, _y);
@@ -65,19 +66,23 @@ public:
         _narrow_share = Real(1) / detail::sqrt(root);
     }
 
-    REGAIN_HOST_DEVICE explicit operator bool() const { return bool(_balance); }
+    REGAIN_HOST_DEVICE explicit operator bool() const { return _bound; }
 
     /// w is unit, w.z in [0, 1].
-    REGAIN_HOST_DEVICE Real at(const Vec3<Real>& w) const
+    REGAIN_INLINE Real at(const Vec3<Real>& w) const
     {
-        if (_isotropic) return _axes.directional(_balance, w.z);
+        return _isotropic ? _row.at(_axes.cosine(w.z)) : of_two_widths(w);
+    }
 
+private:
+    REGAIN_HOST_DEVICE Real of_two_widths(const Vec3<Real>& w) const
+    {
         const Real X = _x * w.x, Y = _y * w.y, X2 = X * X, Y2 = Y * Y, z = _axes.alpha() * w.z;
         const Real tiny = detail::constant<Real>(1e-36), tangential = X2 + Y2;
         const Real mu = detail::select(
             _x == _y, w.z,
             detail::min(z / detail::sqrt(detail::max(z * z + tangential, tiny)), Real(1)));
-        const Real g = _axes.directional(_balance, mu);
+        const Real g = _row.at(_axes.cosine(mu));
         if (!_anisotropy) return g;
         // Along the normal y is anything.
         const Real narrow = _narrow_share * detail::select(_x < _y, X2, Y2);
@@ -86,8 +91,8 @@ public:
         return g * detail::exp(_anisotropy.at(at));
     }
 
-private:
-    TableView _balance;
+    bool _bound;
+    TableView::Row<Real> _row;
     GridView<5> _anisotropy;
     TableAxes<Real> _axes;
     Real _x, _y;

@@ -20,8 +20,10 @@
 /// than all bounces do together, to its largest along the normal.
 ///
 /// t is the colour of the later bounces, F_ms of directional_gain.h, 1 where F = 1. Of each
-/// direction of a pair it says something else; their mean is symmetric, too. Against the walk its
-/// albedo is within 1.4e-2 of GGX and Beckmann (docs/methods.md).
+/// direction of a pair it says something else; their mean is symmetric, too. It is taken at two
+/// cosines when the gain is built, with a straight line between them and on to both ends: F_ms
+/// itself is no closer to the walk, from which the albedo is within 1.5e-2 for GGX and Beckmann
+/// (docs/methods.md).
 ///
 /// Directions and pdfs are the lobe's. A sample's weight is that of the lobe times the gain, whose
 /// factor of wi evens out the masking on the way out: with F = 1 and alpha 1 the weight's variance
@@ -43,6 +45,8 @@ REGAIN_NAMESPACE_BEGIN
 template <class FresnelType>
 class BalancedGain
 {
+    using Channels = detail::ChannelsOf<typename FresnelType::Real>;
+
 public:
     using Fresnel = FresnelType;
     using Real = typename Fresnel::Real;
@@ -54,12 +58,20 @@ public:
     template <class Distribution>
     REGAIN_HOST_DEVICE BalancedGain(const Distribution& distribution, const Fresnel& fresnel,
                                     const MicrofacetTables& tables, Real strength)
-        : _tint(distribution, fresnel, tables, strength),
-          _balance(distribution, tables),
-          _half_strength(Real(0.5f) * detail::saturate(strength))
+        : _balance(distribution, tables)
     {
         _bound = _balance && tables.has_albedo() && tables.has_later_bounces();
-        _half_strength = detail::select(distribution.is_delta(), Real(0), _half_strength);
+        if (!_bound) return;
+        const DirectionalGain<Fresnel> later(distribution, fresnel, tables, strength);
+        _preserves = later.energy_preserving();
+        const Real half = detail::select(distribution.is_delta(), Real(0),
+                                         Real(0.5f) * detail::saturate(strength));
+        const Color low = later.F_ms(Real(0.25f)), high = later.F_ms(Real(0.75f));
+        const auto end = [&](Real x) {
+            return detail::saturated_channels(low + (high - low) * x) * half;
+        };
+        _grazing = end(Real(-0.5f));
+        _rise = end(Real(1.5f)) - _grazing;
     }
 
     REGAIN_HOST_DEVICE Color at(const Vec3<Real>&) const { return Color(Real(1)); }
@@ -69,52 +81,46 @@ public:
         return Prepared(*this, wo).pair(wi);
     }
 
-private:
-    struct End
-    {
-        Real g = Real(1);
-        Color tint = Color(Real(0));  // s t / 2
-    };
-
-public:
     /// What depends on wo alone.
     class Prepared
     {
     public:
-        REGAIN_HOST_DEVICE Prepared(const BalancedGain& gain, const Vec3<Real>& wo)
-            : _gain(gain), _o(gain.end(wo))
-        {}
-        REGAIN_HOST_DEVICE Color pair(const Vec3<Real>& wi) const
+        REGAIN_INLINE Prepared(const BalancedGain& gain, const Vec3<Real>& wo) : _gain(gain)
+        {
+            if (!gain._bound) return;
+            const Vec3<Real> w = above(wo);
+            _g = gain._balance.at(w);
+            // That of wi begins where it grazes, too.
+            _tint = gain._grazing + gain._grazing + gain._rise * w.z;
+        }
+        REGAIN_INLINE Color pair(const Vec3<Real>& wi) const
         {
             if (!_gain._bound) return Color(Real(1));
-            const End i = _gain.end(wi);
-            return Color(Real(1)) + (_o.tint + i.tint) * (_o.g * i.g - Real(1));
+            const Vec3<Real> w = above(wi);
+            const Channels tint = _tint + _gain._rise * w.z;
+            return detail::color(Channels(Real(1)) + tint * (_g * _gain._balance.at(w) - Real(1)));
         }
 
     private:
+        REGAIN_INLINE static Vec3<Real> above(const Vec3<Real>& w)
+        {
+            return {w.x, w.y, detail::saturate(w.z)};
+        }
+
         BalancedGain _gain;
-        End _o;
+        Real _g = Real(1);
+        Channels _tint = Channels(Real(0));  // s (t(mu_o) + t(0)) / 2
     };
 
     /// At full strength; of an anisotropic lobe, which does so to a few thousandths with a table
     /// for it, it is not promised.
-    REGAIN_HOST_DEVICE bool energy_preserving() const
-    {
-        return _bound && _tint.energy_preserving();
-    }
+    REGAIN_HOST_DEVICE bool energy_preserving() const { return _bound && _preserves; }
 
 private:
-    REGAIN_HOST_DEVICE End end(const Vec3<Real>& w) const
-    {
-        if (!_bound) return {};
-        const Real mu = detail::saturate(w.z);
-        return {_balance.at({w.x, w.y, mu}), _tint.F_ms(mu) * _half_strength};
-    }
-
-    DirectionalGain<Fresnel> _tint;
     DirectionalBalance<Real> _balance;
-    Real _half_strength;
-    bool _bound = false;
+    // s t / 2 at mu = 0, and how much more it is at mu = 1.
+    Channels _grazing = Channels(Real(0)), _rise = Channels(Real(0));
+    bool _bound = false, _preserves = false;
 };
 
 /// The lobe compensated by its balanced gain at strength s in [0, 1]. The tables serve the gain
@@ -125,7 +131,7 @@ REGAIN_HOST_DEVICE Compensated<Lobe, BalancedGain<typename Lobe::Fresnel>> balan
     typename Lobe::Real strength = typename Lobe::Real(1))
 {
     if (!lobe.tables().has_albedo()) lobe.set_tables(tables);
-    return {lobe, {lobe.distribution(), lobe.fresnel(), tables, strength}};
+    return {BuildGain(), lobe, lobe.distribution(), lobe.fresnel(), tables, strength};
 }
 
 REGAIN_NAMESPACE_END

@@ -121,6 +121,18 @@ struct NumberTraits<Real, std::enable_if_t<std::is_floating_point_v<Real>>>
     /// data[i] and data[i + 1] as numbers.
     REGAIN_INLINE static void gather_pair(const std::uint16_t* data, Index i, Real& a, Real& b)
     {
+#if REGAIN_HAS_SSE2
+        if constexpr (sizeof(Real) == 4)
+        {
+            int pair;
+            std::memcpy(&pair, data + i, sizeof pair);
+            const __m128 both =
+                _mm_cvtepi32_ps(_mm_unpacklo_epi16(_mm_cvtsi32_si128(pair), _mm_setzero_si128()));
+            a = _mm_cvtss_f32(both);
+            b = _mm_cvtss_f32(_mm_shuffle_ps(both, both, 1));
+            return;
+        }
+#endif
         a = static_cast<Real>(data[i]);
         b = static_cast<Real>(data[i + 1]);
     }

@@ -79,7 +79,7 @@ struct TableView
     REGAIN_INLINE Real at(Real x, Real y) const
     {
         const Cell<Real> i(x, width), j(y, height);
-        return value(plane(i, j, j.low * width));
+        return value(plane(i, j.fraction, j.low * width));
     }
 
     /// Value at (x, y, z), each in [0, 1]; the table has three axes and is not empty.
@@ -88,8 +88,24 @@ struct TableView
     {
         const Cell<Real> i(x, width), j(y, height), k(z, depth);
         const auto line = (k.low * height + j.low) * width;
-        const Real a = plane(i, j, line), b = plane(i, j, line + height * width);
+        const Real a = plane(i, j.fraction, line), b = plane(i, j.fraction, line + height * width);
         return value(a + (b - a) * k.fraction);
+    }
+
+    /// The table with all coordinates fixed but the first.
+    template <class Real>
+    class Row;
+
+    /// Row at y, of two axes, and at (y, z), of three; each in [0, 1]. The table is not empty.
+    template <class Real>
+    REGAIN_INLINE Row<Real> row_at(Real y) const
+    {
+        return Row<Real>(*this, y);
+    }
+    template <class Real>
+    REGAIN_INLINE Row<Real> row_at(Real y, Real z) const
+    {
+        return Row<Real>(*this, y, z);
     }
 
 private:
@@ -119,10 +135,10 @@ private:
 
     // Line is the index of the first node of the row below.
     template <class Real, class Line>
-    REGAIN_INLINE Real plane(const Cell<Real>& i, const Cell<Real>& j, const Line& line) const
+    REGAIN_INLINE Real plane(const Cell<Real>& i, const Real& fraction, const Line& line) const
     {
         const Real a = row(i, line), b = row(i, line + width);
-        return a + (b - a) * j.fraction;
+        return a + (b - a) * fraction;
     }
 
     template <class Real>
@@ -130,6 +146,47 @@ private:
     {
         return detail::constant<Real>(offset) + detail::constant<Real>(scale) * stored;
     }
+};
+
+template <class Real>
+class TableView::Row
+{
+public:
+    /// Of no table; it may not be asked.
+    Row() = default;
+
+    /// Value at x in [0, 1].
+    REGAIN_INLINE Real at(Real x) const
+    {
+        const Cell<Real> i(x, _table.width);
+        Real a = _table.plane(i, _y, _line);
+        if (_table.depth > 1)
+        {
+            const Real b = _table.plane(i, _y, _line + _table.height * _table.width);
+            a += (b - a) * _z;
+        }
+        return _table.value(a);
+    }
+
+private:
+    friend TableView;
+
+    REGAIN_INLINE Row(const TableView& table, Real y) : _table(table)
+    {
+        const Cell<Real> j(y, table.height);
+        _line = j.low * table.width;
+        _y = j.fraction;
+    }
+    REGAIN_INLINE Row(const TableView& table, Real y, Real z) : Row(table, y)
+    {
+        const Cell<Real> k(z, table.depth);
+        _line = _line + k.low * table.height * table.width;
+        _z = k.fraction;
+    }
+
+    TableView _table;
+    IndexOf<Real> _line = IndexOf<Real>(0);
+    Real _y = Real(0), _z = Real(0);
 };
 
 /// Where a distribution lies on the axes of its tables: all but the cosine.
@@ -175,6 +232,11 @@ public:
     {
         const Real x = cosine(mu);
         return _has_tail ? table.at(x, _width, _tail) : table.at(x, _width);
+    }
+    /// The row of `table` that directional() looks into, over cosine(mu).
+    REGAIN_INLINE TableView::Row<Real> row_of(const TableView& table) const
+    {
+        return _has_tail ? table.row_at(_width, _tail) : table.row_at(_width);
     }
     /// Coordinate of mu in [0, 1] along the first axis.
     REGAIN_INLINE Real cosine(Real mu) const
@@ -222,8 +284,13 @@ struct LossTables
     template <class Real>
     REGAIN_INLINE Real albedo(const TableAxes<Real>& axes, Real mu) const
     {
-        if (fits) return fits->E_ss(mu, axes.alpha());
-        return detail::min(value(axes.directional(E_ss, mu)), Real(1));
+        return fits ? fits->E_ss(mu, axes.alpha()) : albedo_of(axes.directional(E_ss, mu));
+    }
+    /// E_ss by the number that the table holds of it.
+    template <class Real>
+    REGAIN_INLINE Real albedo_of(Real number) const
+    {
+        return detail::min(value(number), Real(1));
     }
 
 protected:

@@ -37,6 +37,7 @@
 
 #include <regain/closures/azimuth_spread.h>
 #include <regain/closures/directional_gain.h>
+#include <regain/closures/directional_loss.h>
 #include <regain/closures/missing_energy.h>
 #include <regain/closures/reflection_with_added_lobe.h>
 
@@ -49,14 +50,19 @@ template <class Real>
 class ColorCurve
 {
 public:
-    REGAIN_HOST_DEVICE ColorCurve() : ColorCurve([](Real) { return Color3<Real>(Real(1)); }) {}
+    /// 1 everywhere.
+    REGAIN_HOST_DEVICE ColorCurve()
+    {
+        for (ChannelsOf<Real>& c : _coefficient) c = ChannelsOf<Real>(Real(0));
+        _coefficient[0] = ChannelsOf<Real>(Real(1));
+    }
 
     /// color(mu) for mu in [0, 1].
     template <class F>
     REGAIN_HOST_DEVICE explicit ColorCurve(const F& color)
     {
         for (int i = 0; i < nodes; ++i)
-            _coefficient[i] = color(constant<Real>(place(i) * place(i)));
+            _coefficient[i] = channels<Real>(color(constant<Real>(place(i) * place(i))));
         // Newton's divided differences.
         for (int order = 1; order < nodes; ++order)
             for (int i = nodes - 1; i >= order; --i)
@@ -65,13 +71,14 @@ public:
     }
 
     /// In [0, 1] per channel.
-    REGAIN_HOST_DEVICE Color3<Real> at(Real mu) const
+    REGAIN_HOST_DEVICE Color3<Real> at(Real mu) const { return detail::color(channels_at(mu)); }
+    REGAIN_INLINE ChannelsOf<Real> channels_at(Real mu) const
     {
         const Real x = sqrt(mu);
-        Color3<Real> sum = _coefficient[nodes - 1];
+        ChannelsOf<Real> sum = _coefficient[nodes - 1];
         for (int i = nodes - 2; i >= 0; --i)
             sum = sum * (x - constant<Real>(place(i))) + _coefficient[i];
-        return per_channel(sum, [](Real v) { return max(min(v, Real(1)), Real(0)); });
+        return each_channel([](const auto& v) { return clamped(v, 0, 1); }, sum);
     }
 
 private:
@@ -85,7 +92,7 @@ private:
         return x[i];
     }
 
-    Color3<Real> _coefficient[nodes];
+    ChannelsOf<Real> _coefficient[nodes];
 };
 
 }  // namespace detail
@@ -98,6 +105,7 @@ public:
     using Real = RealType;
     using Mask = MaskOf<Real>;
     using Color = Color3<Real>;
+    using Channels = detail::ChannelsOf<Real>;
     static constexpr int random_numbers = 2;
 
     /// Of `tables` it needs E_ss, falloff, dip, q_ms, mu_ms, spread, forward and tilt. strength in
@@ -105,78 +113,87 @@ public:
     template <class Distribution, class Fresnel>
     REGAIN_HOST_DEVICE FittedTailLobe(const Distribution& distribution, const Fresnel& fresnel,
                                       const MicrofacetTables& tables, Real strength)
-        : _tables(tables),
-          _axes(distribution),
-          _black(distribution.is_delta()),
-          _strength(detail::saturate(strength)),
-          _mean_cosine(Real(0)),
-          _inv_average(Real(0)),
-          _tilt(Real(0))
+        : _loss(distribution, tables), _strength(detail::saturate(strength))
     {
         const MicrofacetTables& t = tables;
         _bound = t.has_albedo() && t.has_moments() && t.has_later_bounces() && t.has_later_shape();
         if (!_bound) return;
-        const auto loss_at = [this](Real mu) { return common_loss(mu); };
-        const auto rest_at = [this](Real mu) {
-            const Real common = common_loss(mu);
-            return _axes.azimuth_mean(mu, [&](const Vec3<Real>& w) { return rest(w, common); });
-        };
-        if (_axes.isotropic())
-            _missing = MissingEnergy<Real>(_axes.alpha(), loss_at);
-        else
-            _missing = MissingEnergy<Real>(_axes.alpha(),
-                                           [&](Real mu) { return common_loss(mu) + rest_at(mu); });
+        const bool isotropic = axes().isotropic();
+
+        // M and N at the nodes of all integrals, and both together for what is sampled.
+        using Missing = MissingEnergy<Real>;
+        typename Missing::Nodes nodes;
+        Real common[Missing::Nodes::count], rest[Missing::Nodes::count];
+        int node = 0;
+        _missing = Missing(
+            axes().alpha(),
+            [&](Real mu) {
+                const Real M = common_loss(mu);
+                const Real N =
+                    isotropic ? Real(0) : axes().azimuth_mean(mu, [&](const Vec3<Real>& w) {
+                        return this->rest(w, M);
+                    });
+                common[node] = M;
+                rest[node++] = N;
+                return M + N;
+            },
+            Real(0), &nodes);
 
         const DirectionalGain<Fresnel> gain(distribution, fresnel, tables, Real(1));
         _tint = detail::ColorCurve<Real>(
-            [&](Real mu) { return fresnel.mean(tables.moments(_axes, mu)) * gain.F_ms(mu); });
-        const Color average =
-            _missing.average_of(loss_at, [this](Real mu) { return _tint.at(mu); });
-        const Color mean =
-            _missing.average_of(loss_at, [this](Real mu) { return _tint.at(mu) * mu; });
-        const Real tiny = detail::constant<Real>(1e-30);
+            [&](Real mu) { return fresnel.mean(tables.moments(axes(), mu)) * gain.F_ms(mu); });
+        Channels average_channels(Real(0)), mean_channels(Real(0)), rest_channels(Real(0));
+        for (int i = 0; i < Missing::Nodes::count; ++i)
+        {
+            const Channels tint = _tint.channels_at(nodes.mu[i]);
+            const Channels part = tint * (common[i] * nodes.measure[i]);
+            average_channels = average_channels + part;
+            mean_channels = mean_channels + part * nodes.mu[i];
+            rest_channels = rest_channels + tint * (rest[i] * nodes.measure[i]);
+        }
+        const Color average = detail::color(average_channels), mean = detail::color(mean_channels),
+                    left = detail::color(rest_channels);
+
+        const Real tiny = detail::constant<Real>(1e-30), tilt = t.later_tilt(axes());
+        Color inv_average, inv_rest(Real(0)), mean_cosine, tilts;
         for (int c = 0; c < 3; ++c)
         {
-            _inv_average[c] = Real(1) / detail::max(average[c], tiny);
-            _mean_cosine[c] = detail::min(mean[c] * _inv_average[c], Real(1));
+            inv_average[c] = Real(1) / detail::max(average[c], tiny);
+            const Real m = detail::min(mean[c] * inv_average[c], Real(1));
+            mean_cosine[c] = m;
             // P stays above 0.05 for all pairs.
-            const Real m = _mean_cosine[c], most = detail::constant<Real>(0.95),
-                       far = detail::max(m, Real(1) - m), product = m * (Real(1) - m);
-            _tilt[c] =
-                detail::max(detail::min(t.later_tilt(_axes), most / detail::max(product, tiny)),
-                            -most / (far * far));
-        }
-        if (!_axes.isotropic())
-        {
-            const Color rest =
-                _missing.average_of(rest_at, [this](Real mu) { return _tint.at(mu); });
+            const Real most = detail::constant<Real>(0.95), far = detail::max(m, Real(1) - m),
+                       product = m * (Real(1) - m);
+            tilts[c] = detail::max(detail::min(tilt, most / detail::max(product, tiny)),
+                                   -most / (far * far));
+            if (isotropic) continue;
             // Where next to nothing is left, a part of it that no node has seen may be found later.
-            for (int c = 0; c < 3; ++c)
-                _inv_rest[c] =
-                    Real(1) /
-                    detail::max(rest[c],
-                                detail::max(average[c] * detail::constant<Real>(1e-4), tiny));
+            const Real least = average[c] * detail::constant<Real>(1e-4);
+            inv_rest[c] = Real(1) / detail::max(left[c], detail::max(least, tiny));
         }
-        const Real k = t.later_spread(_axes);
-        _azimuth = AzimuthSpread<Real>(k * k, detail::saturate(t.later_forward(_axes)));
+        _inv_average = detail::channels(inv_average);
+        _inv_rest = detail::channels(inv_rest);
+        _mean_cosine = detail::channels(mean_cosine);
+        _tilt = detail::channels(tilts);
+        const Real k = t.later_spread(axes());
+        _azimuth = AzimuthSpread<Real>(k * k, detail::saturate(t.later_forward(axes())));
     }
 
     REGAIN_HOST_DEVICE bool bound() const { return _bound; }
     REGAIN_HOST_DEVICE const MissingEnergy<Real>& missing() const { return _missing; }
     REGAIN_HOST_DEVICE const AzimuthSpread<Real>& azimuth() const { return _azimuth; }
-    REGAIN_HOST_DEVICE const Color& tilt() const { return _tilt; }
-    REGAIN_HOST_DEVICE const Color& mean_cosine() const { return _mean_cosine; }
+    REGAIN_HOST_DEVICE Color tilt() const { return detail::color(_tilt); }
+    REGAIN_HOST_DEVICE Color mean_cosine() const { return detail::color(_mean_cosine); }
 
     /// 1 - E_ss of a unit w, w.z in [0, 1].
     REGAIN_HOST_DEVICE Real loss(const Vec3<Real>& w) const
     {
-        if (!_bound) return Real(0);
-        return detail::select(_black, Real(0), Real(1) - _axes.albedo(_tables, w));
+        return _bound ? _loss.at(w) : Real(0);
     }
     /// M at mu in [0, 1]; where the lobe is isotropic, all of the loss.
     REGAIN_HOST_DEVICE Real common_loss(Real mu) const
     {
-        if (_axes.isotropic()) return loss({Real(0), Real(0), mu});
+        if (axes().isotropic()) return loss({Real(0), Real(0), mu});
         const Real sine = detail::sqrt(detail::max((Real(1) - mu) * (Real(1) + mu), Real(0)));
         return detail::min(loss({sine, Real(0), mu}), loss({Real(0), sine, mu}));
     }
@@ -189,7 +206,7 @@ public:
         Traits t;
         t.reciprocal = true;
         t.exact_pdf = true;
-        t.anisotropic = !_axes.isotropic();
+        t.anisotropic = !axes().isotropic();
         t.random_numbers = random_numbers;
         return t;
     }
@@ -206,22 +223,27 @@ public:
                   detail::select(_valid, wo, Vec3<Real>(Real(0), Real(0), Real(1))))),
               _polar(Polar::of(_wo)),
               _loss(lobe.common_loss(_wo.z)),
-              _energy(lobe.tint(_wo.z) * _loss),
               _weight(lobe._strength)
         {
-            if (!lobe._axes.isotropic())
+            const Channels tint = lobe._tint.channels_at(_wo.z);
+            _energy = tint * _loss;
+            _tilt = lobe._tilt * (Channels(_wo.z) - lobe._mean_cosine);
+            if (!lobe.axes().isotropic())
             {
                 const Real rest = lobe.rest(_wo, _loss), common = _loss;
-                _rest = lobe.tint(_wo.z) * rest;
+                _rest = tint * rest;
                 _loss += rest;
                 _common = common / detail::max(_loss, detail::constant<Real>(1e-30));
             }
             _valid = detail::both<Real>(_valid, _loss > Real(0));
-            _weight = detail::select(_valid, _weight, Color(Real(0)));
+            _weight = detail::select(_valid, _weight, Channels(Real(0)));
         }
 
         REGAIN_HOST_DEVICE const Vec3<Real>& wo() const { return _wo; }
-        REGAIN_HOST_DEVICE void scale_by(const Color& weight) { _weight *= weight; }
+        REGAIN_HOST_DEVICE void scale_by(const Color& weight)
+        {
+            _weight = _weight * detail::channels(weight);
+        }
 
         /// 1 - E_ss(wo).
         REGAIN_HOST_DEVICE Real loss() const { return _loss; }
@@ -263,7 +285,7 @@ public:
 
         REGAIN_HOST_DEVICE Albedo<Real> albedo() const
         {
-            return {_weight * (_energy + _rest), Color(Real(0))};
+            return {detail::color(_weight * (_energy + _rest)), Color(Real(0))};
         }
 
     private:
@@ -287,13 +309,13 @@ public:
         REGAIN_HOST_DEVICE Vec3<Real> some_azimuth(const Real& mu, const Real& sine,
                                                    const Real& u) const
         {
-            if (_lobe._axes.isotropic()) return some_way_ahead(mu, sine, u);
+            if (_lobe.axes().isotropic()) return some_way_ahead(mu, sine, u);
             const Real tiny = detail::constant<Real>(1e-30);
             const Mask common = u <= _common;
             const Real share = u / detail::max(_common, tiny),
                        rest = (u - _common) / detail::max(Real(1) - _common, tiny);
             return detail::select(common, some_way_ahead(mu, sine, detail::min(share, Real(1))),
-                                  _lobe._axes.azimuths().sample(mu, detail::saturate(rest)));
+                                  _lobe.axes().azimuths().sample(mu, detail::saturate(rest)));
         }
         REGAIN_HOST_DEVICE Vec3<Real> some_way_ahead(const Real& mu, const Real& sine,
                                                      const Real& u) const
@@ -310,25 +332,24 @@ public:
         // f cos theta_i.
         REGAIN_HOST_DEVICE Color value(const Terms& t) const
         {
-            const Color one(Real(1));
-            const Real mu = t.wi.z, inv_pi = detail::constant<Real>(0.318309886183790671538);
+            const Real mu = t.wi.z, cosine = mu * detail::constant<Real>(0.318309886183790671538);
             const Real loss = _lobe.common_loss(mu);
-            const Color tint = _lobe.tint(mu);
-            const Color energy = tint * (loss * mu * t.azimuth * inv_pi);
-            const Color tilted = one + _lobe._tilt * (Color(_wo.z) - _lobe._mean_cosine) *
-                                           (Color(mu) - _lobe._mean_cosine);
-            const Color common = _weight * _energy * _lobe._inv_average * energy * tilted;
-            if (_lobe._axes.isotropic()) return common;
-            return common + _weight * _rest * _lobe._inv_rest * tint *
-                                (_lobe.rest(t.wi, loss) * mu * inv_pi);
+            const Channels weight = _weight * _lobe._tint.channels_at(mu);
+            const Channels tilted = Channels(Real(1)) + _tilt * (Channels(mu) - _lobe._mean_cosine);
+            const Channels common = _energy * _lobe._inv_average * tilted;
+            if (_lobe.axes().isotropic())
+                return detail::color(weight * common * (loss * cosine * t.azimuth));
+            return detail::color(weight *
+                                 (common * (loss * cosine * t.azimuth) +
+                                  _rest * _lobe._inv_rest * (_lobe.rest(t.wi, loss) * cosine)));
         }
         // Per steradian.
         REGAIN_HOST_DEVICE Real density(const Terms& t) const
         {
             Real azimuth = t.azimuth;
-            if (!_lobe._axes.isotropic())
+            if (!_lobe.axes().isotropic())
                 azimuth = _common * azimuth +
-                          (Real(1) - _common) * _lobe._axes.azimuths().relative_density(t.wi);
+                          (Real(1) - _common) * _lobe.axes().azimuths().relative_density(t.wi);
             return _lobe._missing.density(t.wi.z) * azimuth *
                    detail::constant<Real>(0.159154943091895335769);
         }
@@ -338,9 +359,11 @@ public:
         Vec3<Real> _wo;
         Polar _polar;
         Real _loss;
-        Color _energy, _weight;        // A(mu_o) or M_o t; strength and what scale_by was given
-        Color _rest = Color(Real(0));  // N_o t
-        Real _common = Real(1);        // share of M_o in the loss
+        Channels _weight;                    // strength and what scale_by was given
+        Channels _energy;                    // A(mu_o) or M_o t
+        Channels _rest = Channels(Real(0));  // N_o t
+        Channels _tilt;                      // c (mu_o - m)
+        Real _common = Real(1);              // share of M_o in the loss
     };
 
     REGAIN_HOST_DEVICE Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
@@ -352,16 +375,16 @@ private:
         return detail::max(loss(w) - common, Real(0));
     }
 
-    MicrofacetTables _tables;
-    DirectionAxes<Real> _axes;
-    Mask _black;
+    REGAIN_HOST_DEVICE const DirectionAxes<Real>& axes() const { return _loss.axes(); }
+
+    DirectionalLoss<Real> _loss;
     bool _bound;
     Real _strength;
     detail::ColorCurve<Real> _tint;
     MissingEnergy<Real> _missing;
     AzimuthSpread<Real> _azimuth;
-    Color _mean_cosine, _inv_average, _tilt;
-    Color _inv_rest = Color(Real(0));
+    Channels _mean_cosine = Channels(Real(0)), _inv_average = Channels(Real(0)),
+             _tilt = Channels(Real(0)), _inv_rest = Channels(Real(0));
 };
 
 /// A MicrofacetReflection and its tail.

@@ -28,6 +28,7 @@
 
 #pragma once
 
+#include <regain/closures/directional_loss.h>
 #include <regain/closures/microfacet_reflection.h>
 #include <regain/closures/missing_energy.h>
 #include <regain/closures/reflection_with_added_lobe.h>
@@ -86,19 +87,15 @@ public:
     template <class Distribution>
     REGAIN_HOST_DEVICE MissingEnergyLobe(const Distribution& distribution,
                                          const MicrofacetTables& tables)
-        : _tables(tables),
-          _axes(distribution),
-          _black(distribution.is_delta()),
-          _bound(tables.has_albedo()),
-          _tint(Real(1))
+        : _loss(distribution, tables), _tint(Real(1))
     {
-        if (_bound)
-            _missing = MissingEnergy<Real>(_axes.alpha(), [this](Real mu) {
-                return _axes.azimuth_mean(mu, [this](const Vec3<Real>& w) { return loss(w); });
+        if (bound())
+            _missing = MissingEnergy<Real>(axes().alpha(), [this](Real mu) {
+                return axes().azimuth_mean(mu, [this](const Vec3<Real>& w) { return loss(w); });
             });
     }
 
-    REGAIN_HOST_DEVICE bool bound() const { return _bound; }
+    REGAIN_HOST_DEVICE bool bound() const { return _loss.bound(); }
     REGAIN_HOST_DEVICE const MissingEnergy<Real>& missing() const { return _missing; }
 
     /// F_ms, in [0, 1] per channel.
@@ -106,18 +103,14 @@ public:
     REGAIN_HOST_DEVICE void set_tint(const Color& tint) { _tint = tint; }
 
     /// 1 - E_ss of a unit w, w.z in [0, 1].
-    REGAIN_HOST_DEVICE Real loss(const Vec3<Real>& w) const
-    {
-        if (!_bound) return Real(0);
-        return detail::select(_black, Real(0), Real(1) - _axes.albedo(_tables, w));
-    }
+    REGAIN_HOST_DEVICE Real loss(const Vec3<Real>& w) const { return _loss.at(w); }
 
     REGAIN_HOST_DEVICE Traits traits() const
     {
         Traits t;
         t.reciprocal = true;
         t.exact_pdf = true;
-        t.anisotropic = !_axes.isotropic();
+        t.anisotropic = !axes().isotropic();
         t.random_numbers = random_numbers;
         return t;
     }
@@ -201,12 +194,12 @@ public:
         {
             const Real even =
                 _lobe._missing.density(t.wi.z) * detail::constant<Real>(0.159154943091895335769);
-            if (_lobe._axes.isotropic()) return even;
-            return even * _lobe._axes.azimuths().relative_density(t.wi);
+            if (_lobe.axes().isotropic()) return even;
+            return even * _lobe.axes().azimuths().relative_density(t.wi);
         }
         REGAIN_HOST_DEVICE Vec3<Real> at_some_azimuth(const Real& mu, const Real& u) const
         {
-            if (!_lobe._axes.isotropic()) return _lobe._axes.azimuths().sample(mu, u);
+            if (!_lobe.axes().isotropic()) return _lobe.axes().azimuths().sample(mu, u);
             const Real sine = detail::sqrt((Real(1) - mu) * (Real(1) + mu));
             const Real phi = detail::constant<Real>(6.28318530717958647692) * u;
             return {sine * detail::cos(phi), sine * detail::sin(phi), mu};
@@ -222,10 +215,9 @@ public:
     REGAIN_HOST_DEVICE Prepared prepare(const Vec3<Real>& wo) const { return Prepared(*this, wo); }
 
 private:
-    MicrofacetTables _tables;
-    DirectionAxes<Real> _axes;
-    Mask _black;
-    bool _bound;
+    REGAIN_HOST_DEVICE const DirectionAxes<Real>& axes() const { return _loss.axes(); }
+
+    DirectionalLoss<Real> _loss;
     Color _tint;
     MissingEnergy<Real> _missing;
 };

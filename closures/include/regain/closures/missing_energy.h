@@ -34,13 +34,28 @@ public:
     using Real = RealType;
     static_assert(pieces == 1 || pieces == 3, "one piece, or three about a critical cosine");
 
-    /// Nothing is missing.
-    REGAIN_HOST_DEVICE MissingEnergy() : MissingEnergy(Real(1), [](Real) { return Real(0); }) {}
+    /// Nothing is missing, and the density is anything.
+    REGAIN_HOST_DEVICE MissingEnergy()
+        : _width(detail::constant<Real>(0.5 / radius)), _critical(Real(0)), _average(Real(0))
+    {
+        Piece& piece = _piece[pieces - 1];
+        place(piece, Real(0), Real(1), along(Real(1)).t);
+        for (Real& node : piece.node) node = Real(1);
+    }
 
-    /// loss(mu) = 1 - E(mu) in [0, 1] for mu in [0, 1]; it is asked `pieces` * (`cells` + 1) times.
-    /// alpha in (0, 1]. critical in [0, 1) is the critical cosine, 0 where there is none.
+    /// Where integrals over what is missing are taken, kept as long as there are any to take:
+    ///   2 int_0^1 g mu dmu  =  sum g(mu[i]) measure[i]
+    struct Nodes
+    {
+        static constexpr int count = pieces * (cells + 1);
+        Real mu[count], measure[count];
+    };
+
+    /// loss(mu) = 1 - E(mu) in [0, 1] for mu in [0, 1]; it is asked at each of the nodes, in their
+    /// order. alpha in (0, 1]. critical in [0, 1) is the critical cosine, 0 where there is none.
     template <class Loss>
-    REGAIN_HOST_DEVICE MissingEnergy(Real alpha, const Loss& loss, Real critical = Real(0))
+    REGAIN_HOST_DEVICE MissingEnergy(Real alpha, const Loss& loss, Real critical = Real(0),
+                                     Nodes* nodes = nullptr)
         : _width(alpha * detail::constant<Real>(0.5 / radius))
     {
         const Real none(0);
@@ -50,13 +65,14 @@ public:
         const Real half = Real(0.5f) * _critical;
         if constexpr (pieces == 3)
         {
-            _piece[0] = {none, Real(1), half};
-            _piece[1] = {_critical, Real(-1), half};
+            place(_piece[0], none, Real(1), half);
+            place(_piece[1], _critical, Real(-1), half);
         }
-        _piece[pieces - 1] = {_critical, Real(1), along(Real(1)).t - _critical};
+        place(_piece[pieces - 1], _critical, Real(1), along(Real(1)).t - _critical);
 
         Real mass(0), corrected(0);
-        for (Piece& piece : _piece) measure(piece, loss, mass, corrected);
+        for (int i = 0; i < pieces; ++i)
+            measure(_piece[i], loss, nodes, i * (cells + 1), mass, corrected);
         _average = Real(2) * detail::max(corrected, Real(0));
 
         // Between two nodes that see no loss there may be some: nothing that is evaluated may be
@@ -80,20 +96,6 @@ public:
     /// normalised by what is looked up, and a table of E_avg is not precise enough where next to
     /// nothing is missing.
     REGAIN_HOST_DEVICE Real average() const { return _average; }
-
-    /// 2 int_0^1 (1 - E) g mu dmu, by the same nodes as average(), which is that of g = 1. `loss`
-    /// is what the object was built of; g(mu) answers numbers or colours.
-    template <class Loss, class G>
-    REGAIN_HOST_DEVICE auto average_of(const Loss& loss, const G& g) const
-    {
-        using Value = std::decay_t<decltype(g(Real(1)))>;
-        Value sum(Real(0));
-        for (const Piece& piece : _piece)
-            visit_nodes(piece, [&](int i, Real mu, Real slope) {
-                sum += g(mu) * (loss(mu) * mu * slope * corrected_weight(i));
-            });
-        return sum * Real(2);
-    }
 
     /// Density of mu in [0, 1]; integrates to 1.
     REGAIN_HOST_DEVICE Real density(Real mu) const
@@ -178,38 +180,42 @@ private:
 
     struct Piece
     {
-        Real start, sign, length;
+        Real start = Real(0), sign = Real(1), length = Real(0);
         Real log_range = Real(0), inv_log_range = Real(0);
         Real node[cells + 1] = {};  // the density of s at i / cells
     };
 
+    REGAIN_HOST_DEVICE void place(Piece& piece, const Real& start, const Real& sign,
+                                  const Real& length) const
+    {
+        piece.start = start;
+        piece.sign = sign;
+        piece.length = length;
+        piece.log_range = detail::log1p(length / _width);
+        piece.inv_log_range = Real(1) / detail::max(piece.log_range, detail::constant<Real>(1e-12));
+    }
+
     // The nodes (1 - E) mu dmu/ds, their mass by the trapezoidal rule, which is that of the
     // density, and their integral with Gregory's corrections at the ends.
     template <class Loss>
-    REGAIN_HOST_DEVICE void measure(Piece& piece, const Loss& loss, Real& mass,
-                                    Real& integral) const
-    {
-        piece.log_range = detail::log1p(piece.length / _width);
-        piece.inv_log_range = Real(1) / detail::max(piece.log_range, detail::constant<Real>(1e-12));
-        visit_nodes(piece, [&](int i, Real mu, Real slope) {
-            piece.node[i] = loss(mu) * mu * slope;
-            mass += piece.node[i] * detail::constant<Real>((i % cells ? 1.0 : 0.5) / cells);
-            integral += piece.node[i] * corrected_weight(i);
-        });
-    }
-    // visit(i, mu, dmu/ds) for each node but one where mu is 0.
-    template <class Visit>
-    REGAIN_HOST_DEVICE void visit_nodes(const Piece& piece, const Visit& visit) const
+    REGAIN_HOST_DEVICE void measure(Piece& piece, const Loss& loss, Nodes* nodes, int first,
+                                    Real& mass, Real& integral) const
     {
         // From node to node width + distance grows by a factor.
         const Real step = detail::exp(piece.log_range * detail::constant<Real>(1.0 / cells));
         Real shifted = _width;
         for (int i = 0; i <= cells; ++i, shifted *= step)
         {
-            if (i == 0 && vanishes) continue;
             const Real distance = detail::min(detail::max(shifted - _width, Real(0)), piece.length);
             const Real t = piece.start + piece.sign * distance;
-            visit(i, detail::saturate(cosine(t)), shifted * piece.log_range * derivative(t));
+            const Real mu = detail::saturate(cosine(t));
+            const Real area = mu * (shifted * piece.log_range * derivative(t));
+            piece.node[i] = loss(mu) * area;
+            mass += piece.node[i] * detail::constant<Real>((i % cells ? 1.0 : 0.5) / cells);
+            integral += piece.node[i] * corrected_weight(i);
+            if (!nodes) continue;
+            nodes->mu[first + i] = mu;
+            nodes->measure[first + i] = Real(2) * area * corrected_weight(i);
         }
     }
     // Of a node in the integral over s.

@@ -11,16 +11,13 @@ if(NOT xsimd_FOUND)
 endif()
 include(CheckCXXCompilerFlag)
 
-# regain_wide(SET [flag ...])
+# regain_wide(SET FILES file ... FLAGS [flag ...])
 function(regain_wide set)
+  cmake_parse_arguments(arg "" "" "FILES;FLAGS" ${ARGN})
   set(target regain_wide_${set})
   string(TOUPPER ${set} upper)
-  add_library(${target} OBJECT
-    src/wide/beckmann.cpp
-    src/wide/ggx.cpp
-    src/wide/gtr.cpp
-    src/wide/plain.cpp
-    src/wide/std.cpp)
+  list(TRANSFORM arg_FILES PREPEND src/wide/)
+  add_library(${target} OBJECT ${arg_FILES})
   set_target_properties(${target} PROPERTIES
     CXX_VISIBILITY_PRESET hidden
     VISIBILITY_INLINES_HIDDEN ON
@@ -31,7 +28,7 @@ function(regain_wide set)
   # scalar code, for 1 to 4 % of the time. Of the intrinsics for AVX-512 g++ 12 thinks that they read
   # what they leave undefined.
   target_compile_options(${target} PRIVATE
-    ${ARGN} -O2 -ffp-contract=off
+    ${arg_FLAGS} -O2 -ffp-contract=off
     $<$<CXX_COMPILER_ID:GNU>:-Wno-uninitialized;-Wno-maybe-uninitialized>)
   target_compile_features(${target} PRIVATE cxx_std_17)
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/shaders/include)
@@ -40,16 +37,20 @@ function(regain_wide set)
   target_compile_definitions(regain_shaders PRIVATE REGAIN_HAS_${upper})
 endfunction()
 
+# Distributions with a tail are rare, and take as long to compile as all others: one instruction set
+# has them, which those with AVX-512 use, too.
+set(_files beckmann.cpp ggx.cpp plain.cpp)
+set(_tails gtr.cpp std.cpp)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
-  regain_wide(sse4_2 -msse4.2)
-  regain_wide(avx2 -mavx2 -mfma)
+  regain_wide(sse4_2 FILES ${_files} FLAGS -msse4.2)
+  regain_wide(avx2 FILES ${_files} ${_tails} FLAGS -mavx2 -mfma)
   set(_avx512 -mavx512f -mavx512cd -mavx512dq -mavx512bw -mavx512vl -mavx2 -mfma)
   check_cxx_compiler_flag(-mavx512bw REGAIN_COMPILER_HAS_AVX512)
   if(REGAIN_COMPILER_HAS_AVX512)
-    regain_wide(avx512 ${_avx512})
+    regain_wide(avx512 FILES ${_files} FLAGS ${_avx512})
   endif()
 elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
-  regain_wide(neon)
+  regain_wide(neon FILES ${_files} ${_tails})
 else()
   message(STATUS "No wide closures: they are built for x86-64 and 64-bit ARM")
 endif()

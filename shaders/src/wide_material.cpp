@@ -42,23 +42,22 @@ struct Makers
     }
 };
 
-#define REGAIN_MAKERS(set)                                                           \
-    {                                                                                \
-        &wide::ggx_##set, &wide::beckmann_##set, &wide::gtr_##set, &wide::std_##set, \
-            &wide::plain_##set                                                       \
-    }
-
+// Of distributions with a tail RegainWide.cmake builds those of one instruction set.
 #ifdef REGAIN_HAS_SSE4_2
-constexpr Makers sse4_2 = REGAIN_MAKERS(sse4_2);
+constexpr Makers sse4_2{&wide::ggx_sse4_2, &wide::beckmann_sse4_2, nullptr, nullptr,
+                        &wide::plain_sse4_2};
 #endif
 #ifdef REGAIN_HAS_AVX2
-constexpr Makers avx2 = REGAIN_MAKERS(avx2);
+constexpr Makers avx2{&wide::ggx_avx2, &wide::beckmann_avx2, &wide::gtr_avx2, &wide::std_avx2,
+                      &wide::plain_avx2};
 #endif
 #ifdef REGAIN_HAS_AVX512
-constexpr Makers avx512 = REGAIN_MAKERS(avx512);
+constexpr Makers avx512{&wide::ggx_avx512, &wide::beckmann_avx512, &wide::gtr_avx2, &wide::std_avx2,
+                        &wide::plain_avx512};
 #endif
 #ifdef REGAIN_HAS_NEON
-constexpr Makers neon = REGAIN_MAKERS(neon);
+constexpr Makers neon{&wide::ggx_neon, &wide::beckmann_neon, &wide::gtr_neon, &wide::std_neon,
+                      &wide::plain_neon};
 #endif
 
 // Null of what was not built.

@@ -60,6 +60,16 @@ std::vector<InstructionSet> vector_sets()
     return sets;
 }
 
+// Null of what SSE4.2 leaves to floats: distributions with a tail.
+const shaders::WideMaker* maker_of(const NamedMaterial& m, InstructionSet set)
+{
+    const shaders::WideMaker* maker = wide_maker(m.material, set);
+    const auto* facets = std::get_if<shaders::MicrofacetMaterial>(&m.material);
+    const bool left = set == InstructionSet::sse4_2 && facets && has_gamma(facets->distribution);
+    EXPECT_EQ(maker == nullptr, left) << m.name << ", " << name(set);
+    return maker;
+}
+
 // What one point answers.
 struct Answer
 {
@@ -226,7 +236,9 @@ TEST(WidePoints, answer_as_one_float_at_a_time)
             {
                 const std::string what =
                     m.name + ", alpha " + std::to_string(alpha) + ", " + std::string(name(set));
-                const Results r = wide_answers(*wide_maker(m.material, set), m.material, all);
+                const shaders::WideMaker* maker = maker_of(m, set);
+                if (!maker) continue;
+                const Results r = wide_answers(*maker, m.material, all);
                 Differences eval, pdf, weight, wi, sample_pdf, albedo;
                 int other_events = 0;
                 for (std::size_t i = 0; i < all.size(); ++i)
@@ -293,7 +305,8 @@ TEST(WidePoints, bits_do_not_depend_on_the_company)
         for (const NamedMaterial& m : some_materials())
         {
             const std::string what = m.name + ", " + std::string(name(set));
-            const shaders::WideMaker& maker = *wide_maker(m.material, set);
+            if (!maker_of(m, set)) continue;
+            const shaders::WideMaker& maker = *maker_of(m, set);
             const Results together = wide_answers(maker, m.material, all);
 
             // Fewer points.
@@ -355,7 +368,8 @@ TEST(WidePoints, the_first_points_alone)
     for (const InstructionSet set : vector_sets())
         for (const NamedMaterial& m : some_materials())
         {
-            const shaders::WideMaker& maker = *wide_maker(m.material, set);
+            if (!maker_of(m, set)) continue;
+            const shaders::WideMaker& maker = *maker_of(m, set);
             const Results expected = wide_answers(maker, m.material, all);
             std::vector<Vec3<float>> wo, wi, u;
             for (const Case& c : all)
@@ -442,6 +456,8 @@ TEST(WidePoints, frames_are_those_of_one_float_at_a_time)
         for (const InstructionSet set : vector_sets())
         {
             const std::string what = m.name + ", " + std::string(name(set));
+            const shaders::WideMaker* maker = maker_of(m, set);
+            if (!maker) continue;
             const auto ask = [&](const auto& closure) {
                 const bool two_media = is_interface(closure);
                 Arena arena;
@@ -453,8 +469,7 @@ TEST(WidePoints, frames_are_those_of_one_float_at_a_time)
                 surface.facing = !two_media;
                 surface.radiance = true;
                 const WidePoints* points =
-                    wide_maker(m.material, set)
-                        ->prepare(m.material, 1.0f, int(n), surface, arena.memory());
+                    maker->prepare(m.material, 1.0f, int(n), surface, arena.memory());
                 Results r(n);
                 points->eval({int(n), nullptr}, ConstTriples3f::of(L.data()),
                              ConstTriples3f::of(u.data()), Triples3f::of(r.value.data()),
@@ -521,8 +536,10 @@ TEST(WidePoints, hostile_directions_and_numbers)
             {
                 if (set == InstructionSet::avx512 && alpha > 0.5) continue;
                 const std::string what = m.name + ", " + std::string(name(set));
+                const shaders::WideMaker* maker = maker_of(m, set);
+                if (!maker) continue;
                 const Trapped trapped;
-                const Results r = wide_answers(*wide_maker(m.material, set), m.material, all);
+                const Results r = wide_answers(*maker, m.material, all);
                 for (std::size_t i = 0; i < all.size(); ++i)
                 {
                     EXPECT_TRUE(sane(r.value[i]) && sane(r.weight[i]) && sane(r.reflect[i]) &&

@@ -50,7 +50,7 @@ struct WideMaker
 };
 
 /// For the material as it is now, its tables bound; null where the instruction set is scalar or not
-/// to be had.
+/// to be had, and of GTR and STD by SSE4.2. With AVX-512 these take AVX2.
 REGAIN_SHADERS_API const WideMaker* wide_maker(const ClosureTree::Material&,
                                                InstructionSet = preferred_instruction_set());
 

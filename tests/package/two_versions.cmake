@@ -22,7 +22,8 @@ function(change file from to)
   file(WRITE ${SCRATCH}/second/regain/closures/${file} "${changed}")
 endfunction()
 change(version.h "inline namespace v0_1" "inline namespace v0_2")
-change(conductor_fresnel.h "return {channel(_n.x, _k.x, mu)," "return {Real(0.5f) * channel(_n.x, _k.x, mu),")
+change(conductor_fresnel.h "return channel(n, k, std::decay_t<decltype(n)>(mu))"
+  "return channel(n, k, std::decay_t<decltype(n)>(mu)) * Real(0.5f)")
 
 # Without optimisation templates are functions for the linker to choose from.
 set(CONFIG Debug)

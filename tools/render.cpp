@@ -14,10 +14,13 @@
 #include "preview/progress.h"
 #include "preview/render_job.h"
 #include "render_checks.h"
+#include "render_parts.h"
 #include "render_plan.h"
 #include "resume_file.h"
 
 #include <regain/closures/version.h>
+#include <regain/luts/replace_file.h>
+#include <regain/shaders/presets.h>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -29,6 +32,7 @@
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -110,12 +114,24 @@ Metadata describe(const RenderPlan& plan, const RenderOptions& options, bool who
     return metadata;
 }
 
-// What the picture is of: all that decides it, but how many samples it is to have.
+// All that decides the picture, but what is in files.
+std::vector<std::pair<std::string, std::string>> decisive(const RenderPlan& plan,
+                                                          const RenderOptions& options)
+{
+    std::vector<std::pair<std::string, std::string>> all{
+        {"size", fmt::format("{}x{}", plan.width, plan.height)}};
+    for (const auto& entry : describe(plan, options, true, 0).entries)
+        if (entry.first != "partial") all.push_back(entry);
+    if (!plan.documents.empty()) all.emplace_back("columns", std::to_string(options.columns));
+    return all;
+}
+
+// What may be gone on with, with more samples, too.
 std::string job_of(const RenderPlan& plan, const RenderOptions& options)
 {
-    std::string job = fmt::format("{}x{}", plan.width, plan.height);
-    for (const auto& [name, value] : describe(plan, options, true, 0).entries)
-        if (name != "spp" && name != "partial") job += fmt::format("; {}: {}", name, value);
+    std::string job;
+    for (const auto& [name, value] : decisive(plan, options))
+        if (name != "spp") job += fmt::format("{}{}: {}", job.empty() ? "" : "; ", name, value);
     for (const std::string& document : options.documents)
     {
         std::error_code ec;
@@ -125,6 +141,26 @@ std::string job_of(const RenderPlan& plan, const RenderOptions& options)
                            fs::last_write_time(document, ec).time_since_epoch().count());
     }
     return job;
+}
+
+// What parts are put together of: to the bit, and where files may have come from elsewhere.
+JobDescription job_of_parts(const RenderPlan& plan, const RenderOptions& options)
+{
+    JobDescription job = describe_job("render");
+    for (const auto& [name, value] : decisive(plan, options))
+        if (name != "version") job.add(name, value);
+    for (const std::string& document : options.documents)
+        job.add_contents("contents of " + document, shaders::document_or_preset(document));
+    if (!options.plugin.empty()) job.add_contents("contents of the plug-in", options.plugin);
+    // Without a floor the light is white, and no file.
+    if (!options.environment.empty() && plan.layout.floor)
+        job.add_contents("contents of the environment", options.environment);
+    return job;
+}
+
+fs::path part_file_of(const RenderPlan& plan, const Part& part)
+{
+    return part_file_name(fs::path(plan.exr).replace_extension(), part);
 }
 
 // Tells what the numbers of two of them mean.
@@ -213,7 +249,12 @@ void label(Picture& picture, const RenderPlan& plan, const std::deque<Row>& rows
 int render(const RenderOptions& options)
 {
     const auto start = std::chrono::steady_clock::now();
+    const std::optional<Part> part = options.parts.chosen();
     RenderPlan plan = make_plan(options);
+    if (part) luts::require_replaceable(part_file_of(plan, *part));
+    // Described before there is work, which may load more libraries.
+    JobDescription parts_job;
+    if (part || options.parts.merges()) parts_job = job_of_parts(plan, options);
     const Environment light(std::move(plan.light), static_cast<float>(options.rotate * M_PI / 180));
 
     std::deque<RowScene> scenes;
@@ -227,6 +268,7 @@ int render(const RenderOptions& options)
     }
 
     RenderJob job;
+    job.part = part.value_or(Part());
     for (Row& row : rows) job.targets.push_back({&row.integrator.get(), &row.film});
     job.samples = static_cast<int>(options.samples);
     job.threads = static_cast<int>(options.threads);
@@ -239,12 +281,34 @@ int render(const RenderOptions& options)
 
     // Held until the files are written: Ctrl-C then does not leave half a picture.
     const InterruptGuard interrupt;
-    bool whole = false;
+    bool whole = options.parts.merges();
+    if (whole)
+        merge_render_parts(options.parts.merged, films, parts_job);
+    else
     {
         Progress progress("render", total_samples(job), Progress::style(options.quiet));
         job.stop = &interrupt.flag();
         job.progress = &progress;
         whole = preview::render(job);
+    }
+
+    const auto seconds_so_far = [&] {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    };
+    if (part)
+    {
+        const fs::path file = part_file_of(plan, *part);
+        if (!whole)
+        {
+            fmt::print(stderr, "regain: stopped, '{}' was not written: run the part again\n",
+                       file.string());
+            return kInterrupted;
+        }
+        write_render_part(file, films, parts_job, *part);
+        if (!options.quiet || options.json)
+            report_part(*part, file, tiles_of(films, *part).size(), tiles_of(films).size(), "tiles",
+                        seconds_so_far(), options.json);
+        return kDone;
     }
 
     std::uint64_t faults = 0, taken = 0;
@@ -288,8 +352,7 @@ int render(const RenderOptions& options)
     else
         write_resume_file(resume, {films.begin(), films.end()}, identity);
 
-    const double seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double seconds = seconds_so_far();
     if (faults)
         fmt::print(stderr, "regain: {} of {} samples were not finite and count as black\n", faults,
                    taken);
@@ -376,6 +439,17 @@ int watch(const RenderOptions& options)
 
 int render_all(const RenderOptions& options)
 {
+    const std::string with = options.parts.given();
+    if (!with.empty())
+    {
+        if (options.turntable != 0)
+            refuse("--turntable", std::to_string(options.turntable),
+                   "does not go with " + with + "; each of its pictures is one of --turn");
+        if (options.watch) refuse("--watch", "", "does not go with " + with);
+        if (options.resume)
+            refuse("--resume", "",
+                   "does not go with " + with + ": a part that was stopped is run again");
+    }
     if (options.turntable != 0 && options.watch)
         refuse("--watch", "", "does not go with --turntable");
     if (options.watch) return watch(options);

@@ -72,6 +72,8 @@ Examples:
   regain render car.mtlx --turntable 90 -o turn.exr --resume
   regain render car.mtlx --watch --spp 8
   regain render car.mtlx --spp 4096 --resume
+  regain render car.mtlx --spp 4096 -o car.exr --part 3/7     on one of seven machines
+  regain render car.mtlx --spp 4096 -o car.exr --merge car.part-*-of-7
   regain render silver --furnace
   regain render materials.mtlx --select Gold --select Varnish --host osl
   regain render --plugin surface.so --set coat=1 --set base_color=0.1,0.2,0.6
@@ -133,6 +135,7 @@ Examples:
                      "go on with a render that was interrupted, from NAME.resume.exr, which an "
                      "interrupt leaves; the picture is as if it had not been. Where there is none, "
                      "begin");
+    declare(o.parts, command);
     command.add_option(
         "--aov", o.aovs,
         "layers of the EXR, divided by commas, of the first surface in view: albedo, "

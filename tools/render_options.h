@@ -6,6 +6,8 @@
 
 #pragma once
 
+#include "part_options.h"
+
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -54,6 +56,7 @@ struct RenderOptions
     bool furnace = false;
     std::string aovs;
     bool resume = false;
+    PartOptions parts;
     std::string difference;
     std::optional<double> scale;
     std::int64_t samples = 64;

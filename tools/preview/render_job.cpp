@@ -17,32 +17,43 @@ namespace {
 
 constexpr int kTile = 16;
 
-struct Task
+std::vector<Film*> films_of(const RenderJob& job)
 {
-    const RenderTarget* target;
-    Tile tile;
-};
+    std::vector<Film*> films;
+    for (const RenderTarget& target : job.targets) films.push_back(target.film);
+    return films;
+}
 
-std::vector<Task> make_tasks(const RenderJob& job)
+std::uint64_t pixels(const Tile& tile)
 {
-    std::vector<Task> tasks;
-    for (const RenderTarget& target : job.targets)
-        for (int y = 0; y < target.film->height(); y += kTile)
-            for (int x = 0; x < target.film->width(); x += kTile)
-                tasks.push_back({&target, Tile{x, y, std::min(x + kTile, target.film->width()),
-                                               std::min(y + kTile, target.film->height())}});
-    return tasks;
+    return static_cast<std::uint64_t>(tile.x1 - tile.x0) *
+           static_cast<std::uint64_t>(tile.y1 - tile.y0);
 }
 
 }  // namespace
 
+std::vector<FilmTile> tiles_of(const std::vector<Film*>& films, const Part& part)
+{
+    std::vector<FilmTile> tiles;
+    std::size_t place = 0;
+    for (std::size_t f = 0; f < films.size(); ++f)
+    {
+        const int width = films[f]->width(), height = films[f]->height();
+        const auto across = static_cast<std::size_t>((width + kTile - 1) / kTile);
+        for (int y = 0; y < height; y += kTile)
+            for (int x = 0; x < width; x += kTile)
+                if (part.holds(place++, across))
+                    tiles.push_back(
+                        {f, Tile{x, y, std::min(x + kTile, width), std::min(y + kTile, height)}});
+    }
+    return tiles;
+}
+
 std::uint64_t total_samples(const RenderJob& job)
 {
-    std::uint64_t pixels = 0;
-    for (const RenderTarget& target : job.targets)
-        pixels += static_cast<std::uint64_t>(target.film->width()) *
-                  static_cast<std::uint64_t>(target.film->height());
-    return pixels * static_cast<std::uint64_t>(job.samples);
+    std::uint64_t all = 0;
+    for (const FilmTile& t : tiles_of(films_of(job), job.part)) all += pixels(t.tile);
+    return all * static_cast<std::uint64_t>(job.samples);
 }
 
 bool render(const RenderJob& job)
@@ -50,7 +61,7 @@ bool render(const RenderJob& job)
     const int cores = tbb::info::default_concurrency();
     tbb::task_arena arena(job.threads > 0 ? std::min(job.threads, cores) : cores);
 
-    const std::vector<Task> tasks = make_tasks(job);
+    const std::vector<FilmTile> tasks = tiles_of(films_of(job), job.part);
     std::atomic<std::size_t> finished{0};
     std::size_t started = 0;
     const auto stopped = [&] { return job.stop && job.stop->load(std::memory_order_relaxed); };
@@ -67,19 +78,15 @@ bool render(const RenderJob& job)
                 std::size_t(0), tasks.size(),
                 [&](std::size_t i) {
                     if (stopped()) return;
-                    const Task& task = tasks[i];
+                    const Tile& tile = tasks[i].tile;
+                    const RenderTarget& target = job.targets[tasks[i].film];
                     // All of a tile has as many.
-                    const int has =
-                        static_cast<int>(task.target->film->samples(task.tile.x0, task.tile.y0));
+                    const int has = static_cast<int>(target.film->samples(tile.x0, tile.y0));
                     if (has < first + count)
-                        task.target->integrator->render(task.tile, has, first + count - has,
-                                                        *task.target->film);
+                        target.integrator->render(tile, has, first + count - has, *target.film);
                     finished.fetch_add(1, std::memory_order_relaxed);
                     if (job.progress)
-                        job.progress->advance(
-                            static_cast<std::uint64_t>(task.tile.x1 - task.tile.x0) *
-                            static_cast<std::uint64_t>(task.tile.y1 - task.tile.y0) *
-                            static_cast<std::uint64_t>(count));
+                        job.progress->advance(pixels(tile) * static_cast<std::uint64_t>(count));
                 },
                 tbb::simple_partitioner());
         });

@@ -6,6 +6,7 @@
 
 #pragma once
 
+#include "../part.h"
 #include "integrator.h"
 
 #include <atomic>
@@ -31,14 +32,24 @@ struct RenderJob
     int threads = 0;                          ///< 0: one per core, which is also the most
     const std::atomic<bool>* stop = nullptr;  ///< set by anyone to end early
     Progress* progress = nullptr;             ///< advanced by pixel samples
+    Part part;                                ///< of the tiles; the rest of the films is left alone
 };
 
-/// Pixel samples of the whole job: what its progress counts.
+/// What a job is divided into.
+struct FilmTile
+{
+    std::size_t film;
+    Tile tile;
+};
+/// Those of a part, over films one below the other, in order.
+std::vector<FilmTile> tiles_of(const std::vector<Film*>& films, const Part& part = {});
+
+/// Pixel samples of the job: what its progress counts.
 std::uint64_t total_samples(const RenderJob&);
 
-/// Every pass gives a few more samples to every pixel, so a picture that is stopped is evenly
-/// noisy. The finished films are bit-equal for any number of threads, and if they were stopped and
-/// gone on with. False when it was stopped.
+/// Every pass gives a few more samples to every pixel of the part, so a picture that is stopped is
+/// evenly noisy. The finished films are bit-equal for any number of threads, and if they were
+/// stopped and gone on with. False when it was stopped.
 bool render(const RenderJob&);
 
 }  // namespace regain::tools::preview

@@ -2,17 +2,21 @@
 // Copyright Contributors to the Regain project
 
 #include "commands.h"
+#include "conform_parts.h"
 #include "conform_repeat.h"
 #include "conform_report.h"
 #include "conform_subjects.h"
 #include "errors.h"
+#include "part_options.h"
 #include "preview/interrupt.h"
 #include "preview/progress.h"
 
 #include <regain/conformance/run.h>
 #include <regain/conformance/shared_object.h>
+#include <regain/luts/replace_file.h>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
 #include <iostream>
@@ -32,6 +36,10 @@ threads, and the command below a failure shows that failure again. Where chance 
 of a run together raise a false alarm once in 1000 runs. --repeat tests just that: it runs the checks
 decided by chance N times with other random numbers, and fails where alarms are too many for chance.
 
+--part K/N runs every N-th subject; --merge reports on all of them as one run would, and it alone says
+whether a check failed. A part that was stopped leaves nothing, and is run again. Its file has the name
+of the first report that is asked for, or conform: conform.part-3-of-7.
+
 After Ctrl-C what was found so far is reported, marked as interrupted (exit code 130).
 Exit codes: 0 all passed, 1 a check failed, 2 bad input.
 
@@ -44,6 +52,8 @@ examples:
   regain conform --tier thorough --json=report.json --markdown report.md
   regain conform --json | jq .failed
   regain conform --subject sheen --repeat 1000      false alarms of the kit itself
+  regain conform --tier thorough --part 3/7         on one of seven machines
+  regain conform --tier thorough --merge conform.part-*-of-7
   regain conform --list                             the subjects
   regain conform --list-checks                      the checks, and what each states
 )help";
@@ -56,6 +66,7 @@ struct Arguments
     std::vector<std::string> objects;
     conformance::Options options;
     ReportFiles files;
+    PartOptions parts;
     std::string tier = "commit";
     std::size_t repetitions = 0;
     bool list = false, list_checks = false;
@@ -123,6 +134,21 @@ private:
     std::uint64_t _shown = 0;
 };
 
+// All that decides the report.
+JobDescription job_of(const Arguments& a)
+{
+    const conformance::Options& o = a.options;
+    JobDescription job = describe_job("conform");
+    job.add("tier", a.tier);
+    job.add("subject", o.subject);
+    job.add("check", fmt::format("{}", fmt::join(o.checks, " ")));
+    job.add("setting", o.setting);
+    job.add("seed-salt", std::to_string(o.salt));
+    job.add("shared objects", fmt::format("{}", fmt::join(a.objects, " ")));
+    for (const std::string& object : a.objects) job.add_contents("contents of " + object, object);
+    return job;
+}
+
 int exit_code_of(bool interrupted, bool passed)
 {
     if (interrupted) return kInterrupted;
@@ -147,20 +173,10 @@ int run_repeatedly(const Arguments& a, const Subjects& subjects)
     return exit_code_of(r.interrupted, r.passed());
 }
 
-int run_once(const Arguments& a, const Subjects& subjects)
+int report_on(const conformance::Report& report, const ReportFiles& files, bool json_on_output)
 {
-    ReportFiles files = a.files;
-    if (a.json_on_output()) files.json.clear();
-    require_writable(files);
-    conformance::Options options = a.options;
-    conformance::Report report;
-    {
-        Watch watch;
-        options.progress = std::ref(watch);
-        report = conformance::run(subjects.all(), options);
-    }
     const std::vector<std::string> written = write_reports(files, report);
-    if (a.json_on_output())
+    if (json_on_output)
         write_json(std::cout, report);
     else
         write_summary(std::cout, report);
@@ -170,8 +186,61 @@ int run_once(const Arguments& a, const Subjects& subjects)
     return exit_code_of(report.interrupted, report.passed());
 }
 
+conformance::Report run_watched(const Subjects& subjects, conformance::Options options)
+{
+    Watch watch;
+    options.progress = std::ref(watch);
+    return conformance::run(subjects.all(), options);
+}
+
+int run_part(const Arguments& a, const Subjects& subjects, const Part& part,
+             const JobDescription& job)
+{
+    std::filesystem::path stem = "conform";
+    for (const std::string& file : {a.files.markdown, a.files.json, a.files.junit})
+        if (!file.empty() && file != json_to_output)
+            stem = std::filesystem::path(file).replace_extension();
+    const std::filesystem::path file = part_file_name(stem, part);
+    luts::require_replaceable(file);
+    std::size_t wanted = 0, chosen = 0;
+    conformance::Options options = a.options;
+    options.chosen = [&](std::size_t i) {
+        ++wanted;
+        chosen += part.holds(i);
+        return part.holds(i);
+    };
+    const conformance::Report report = run_watched(subjects, options);
+    if (report.interrupted)
+    {
+        fmt::print(stderr, "regain: stopped, '{}' was not written: run the part again\n",
+                   file.string());
+        return kInterrupted;
+    }
+    write_conform_part(file, report, job, part);
+    report_part(part, file, chosen, wanted, "subjects", report.seconds, a.json_on_output());
+    return kDone;
+}
+
+int run_once(const Arguments& a, const Subjects& subjects)
+{
+    ReportFiles files = a.files;
+    if (a.json_on_output()) files.json.clear();
+    const std::optional<Part> part = a.parts.chosen();
+    const JobDescription job = job_of(a);
+    if (part) return run_part(a, subjects, *part, job);
+    require_writable(files);
+    const conformance::Report report =
+        a.parts.merges() ? merge_conform_parts(a.parts.merged, job, subjects.all())
+                         : run_watched(subjects, a.options);
+    return report_on(report, files, a.json_on_output());
+}
+
 int run_conform(Arguments& a)
 {
+    if (const std::string with = a.parts.given(); !with.empty())
+        if (a.list || a.list_checks || a.repetitions > 0)
+            throw BadInput(
+                fmt::format("{} does not go with --list, --list-checks and --repeat", with));
     if (a.list_checks)
     {
         for (const conformance::CheckTitle& c : conformance::all_checks())
@@ -231,6 +300,7 @@ void add_conform(CLI::App& app, int& exit_code)
             "--histograms", a->files.histograms,
             "EXR and PNG of samples that do not follow the pdf: found, expected, difference")
         ->type_name("FOLDER");
+    declare(a->parts, *command);
     command->add_flag("--list", a->list, "list the subjects");
     command->add_flag("--list-checks", a->list_checks, "list the checks");
     command->callback(

@@ -51,6 +51,12 @@ public:
         static_assert(std::is_trivially_copyable_v<T>);
         _bytes.append(reinterpret_cast<const char*>(values), count * sizeof(T));
     }
+    void put_text(std::string_view text)
+    {
+        const std::uint64_t size = text.size();
+        put(&size, 1);
+        _bytes.append(text);
+    }
     const std::string& bytes() const { return _bytes; }
 
 private:
@@ -76,6 +82,15 @@ public:
         if (_left.size() / sizeof(T) < count) throw Error("there is less than it says");
         std::memcpy(values, _left.data(), count * sizeof(T));
         _left.remove_prefix(count * sizeof(T));
+    }
+    std::string take_text()
+    {
+        std::uint64_t size = 0;
+        take(&size, 1);
+        if (size > _left.size()) throw Error("there is less than it says");
+        std::string text(_left.substr(0, size));
+        _left.remove_prefix(size);
+        return text;
     }
     void finish() const
     {

@@ -247,14 +247,17 @@ TEST(PartPayload, reads_back_what_was_put_and_no_more)
     Payload payload;
     payload.put(numbers, 2);
     payload.put(&count, 1);
+    payload.put_text(std::string("a\0b", 3));
     PayloadReader reader(payload.bytes());
-    double back[2];
+    double back[8];
     std::uint32_t again = 0;
     reader.take(back, 2);
     EXPECT_THROW(reader.finish(), PayloadReader::Error);
-    EXPECT_THROW(reader.take(back, 1), PayloadReader::Error);
+    EXPECT_THROW(reader.take(back, 8), PayloadReader::Error);
     reader.take(&again, 1);
     EXPECT_EQ(again, count);
+    EXPECT_EQ(reader.take_text(), std::string("a\0b", 3));
+    EXPECT_THROW(reader.take_text(), PayloadReader::Error);
     EXPECT_TRUE(std::signbit(back[1]));
     reader.finish();
 }

@@ -40,6 +40,8 @@ struct Plan
     std::vector<Job> jobs;
     std::vector<Verdict> verdicts;
     std::size_t statistical_tests = 0;
+    std::size_t subjects = 0;  // that are wanted, chosen or not
+    std::size_t settings = 0;  // of these
 };
 
 bool is_wanted(const Options& options, const Check& check)
@@ -96,6 +98,8 @@ Plan plan(const std::vector<const Subject*>& subjects, const Options& options)
     for (const Subject* subject : subjects)
     {
         if (!is_wanted(*subject, options.subject, is_whole_name)) continue;
+        const bool chosen = !options.chosen || options.chosen(p.subjects);
+        ++p.subjects;
         const Traits traits = subject->make({})->traits();
         std::vector<std::pair<const Check*, std::size_t>> wanted;
         for (const Check& check : checks())
@@ -110,7 +114,7 @@ Plan plan(const std::vector<const Subject*>& subjects, const Options& options)
                 wanted.emplace_back(&check, p.verdicts.size());
             else
                 v.kind = Verdict::Kind::not_applicable;
-            p.verdicts.push_back(v);
+            if (chosen) p.verdicts.push_back(v);
         }
         bool first = true;
         const double share = appetite(traits) / family_appetite[subject->family()];
@@ -123,8 +127,9 @@ Plan plan(const std::vector<const Subject*>& subjects, const Options& options)
             if (job.checks.empty()) continue;
             // The level is that of the whole run, whatever part of it is run again.
             for (const auto& [check, verdict] : job.checks) p.statistical_tests += check->by_chance;
-            if (options.setting.empty() || options.setting == job.setting.name)
-                p.jobs.push_back(std::move(job));
+            if (!options.setting.empty() && options.setting != job.setting.name) continue;
+            ++p.settings;
+            if (chosen) p.jobs.push_back(std::move(job));
         }
     }
     return p;
@@ -303,7 +308,7 @@ Report run(const std::vector<const Subject*>& subjects, const Options& options)
         }
     require_usable_names(subjects);
     Plan p = plan(subjects, options);
-    if (p.jobs.empty())
+    if (p.settings == 0)
         throw std::invalid_argument(
             "nothing to run: no subject's name has '" + options.subject + "' in it" +
             (options.setting.empty() ? "" : " and the setting '" + options.setting + "'"));

@@ -35,6 +35,10 @@ struct Options
     std::string subject;
     std::vector<std::string> checks;
     std::string setting;
+    /// Of the subjects that these leave, those that are run, by their number from 0 on; empty: all.
+    /// The level of the tests is that of all: what several runs find of the subjects of one is what
+    /// one finds.
+    std::function<bool(std::size_t)> chosen;
     /// Other random numbers for every case: for the test of the kit itself.
     std::uint64_t salt = 0;
     int threads = 0;  ///< 0: one a processor

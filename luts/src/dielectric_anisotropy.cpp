@@ -3,15 +3,12 @@
 
 #include "dielectric_anisotropy.h"
 
-#include "parallel.h"
-
 #include <regain/closures/dielectric_anisotropy.h>
 #include <regain/luts/anisotropic_dielectric.h>
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <mutex>
 
 REGAIN_NAMESPACE_BEGIN
 namespace luts {
@@ -110,44 +107,36 @@ void for_each(const std::array<int, 5>& size, bool middles, const F& f)
                     }
 }
 
-std::vector<GlassAnisotropy::Values> integrate(const GlassAnisotropy& glass,
-                                               const std::array<int, 5>& size, bool middles,
-                                               int nodes, const BakeProgress& progress)
+// Rows are so many points, whatever of the table they are of; the middles begin with a row.
+constexpr std::size_t points_of_row = 256, numbers_of_point = 5;
+
+std::size_t rows_of_points(std::size_t points)
 {
-    std::vector<TablePoint> points;
-    for_each(size, middles, [&](const TablePoint& p, std::size_t) { points.push_back(p); });
-    std::vector<GlassAnisotropy::Values> values(points.size());
-    constexpr std::size_t chunk = 256;
-    parallel_for((points.size() + chunk - 1) / chunk, progress, [&](std::size_t c) {
-        const std::size_t end = std::min(points.size(), (c + 1) * chunk);
-        for (std::size_t i = c * chunk; i < end; ++i) values[i] = glass.at(points[i], nodes);
-    });
-    return values;
+    return (points + points_of_row - 1) / points_of_row;
 }
 
-// Both forms come out of the same integrals: the last are kept for the other one.
-std::shared_ptr<const Lattice> lattice_of(const Definition& d, const BakeProgress& progress)
+std::size_t points_of(const std::array<int, 5>& size, bool middles)
 {
-    static std::mutex mutex;
-    static std::string last;
-    static std::shared_ptr<const Lattice> kept;
-    const std::string key = d.info.distribution + d.info.side;
+    std::size_t points = 1;
+    for (const int length : size) points *= static_cast<std::size_t>(length - (middles ? 1 : 0));
+    return points;
+}
+
+Lattice lattice_of(const std::array<int, 5>& size, const std::vector<double>& integrals)
+{
+    Lattice lattice;
+    const double* row = integrals.data();
+    for (const bool middles : {false, true})
     {
-        const std::lock_guard<std::mutex> lock(mutex);
-        if (kept && last == key) return kept;
+        auto& values = middles ? lattice.middles : lattice.nodes;
+        const std::size_t points = points_of(size, middles);
+        for (std::size_t i = 0; i < points; ++i)
+        {
+            const double* v = row + i * numbers_of_point;
+            values.push_back({v[0], v[1], v[2], v[3], v[4]});
+        }
+        row += rows_of_points(points) * points_of_row * numbers_of_point;
     }
-    const GlassAnisotropy glass{d.info.distribution, d.family.inside};
-    const std::array<int, 5> size = glass_anisotropy_size(d.family.inside);
-    const auto half = [&](double first) {
-        return BakeProgress(
-            [&progress, first](double done) { return !progress || progress(first + 0.5 * done); });
-    };
-    auto lattice = std::make_shared<Lattice>();
-    lattice->nodes = integrate(glass, size, false, d.node_accuracy, half(0));
-    lattice->middles = integrate(glass, size, true, d.check_accuracy, half(0.5));
-    const std::lock_guard<std::mutex> lock(mutex);
-    last = key;
-    kept = lattice;
     return lattice;
 }
 
@@ -176,11 +165,45 @@ GlassAnisotropy::Values GlassAnisotropy::at(const TablePoint& point, int nodes) 
     return v;
 }
 
-Table bake_glass_anisotropy(const Definition& d, const BakeProgress& progress)
+// Both forms of shadowing come out of the same.
+IntegralRows glass_anisotropy_rows(const Definition& d)
 {
-    const std::shared_ptr<const Lattice> lattice = lattice_of(d, progress);
+    const GlassAnisotropy glass{d.info.distribution, d.family.inside};
+    const std::array<int, 5> size = glass_anisotropy_size(d.family.inside);
+    struct Points
+    {
+        std::vector<TablePoint> nodes, middles;
+    };
+    const auto points = std::make_shared<Points>();
+    for_each(size, false, [&](const TablePoint& p, std::size_t) { points->nodes.push_back(p); });
+    for_each(size, true, [&](const TablePoint& p, std::size_t) { points->middles.push_back(p); });
+    const std::size_t of_nodes = rows_of_points(points->nodes.size());
+
+    IntegralRows rows;
+    rows.name = d.info.distribution + " glass anisotropy " + d.info.side;
+    rows.count = of_nodes + rows_of_points(points->middles.size());
+    rows.length = points_of_row * numbers_of_point;
+    rows.integrate = [d, glass, points, of_nodes](std::size_t row, double* to) {
+        const bool middles = row >= of_nodes;
+        const std::vector<TablePoint>& all = middles ? points->middles : points->nodes;
+        const std::size_t first = (middles ? row - of_nodes : row) * points_of_row;
+        const std::size_t end = std::min(all.size(), first + points_of_row);
+        for (std::size_t i = first; i < end; ++i)
+        {
+            const GlassAnisotropy::Values v =
+                glass.at(all[i], middles ? d.check_accuracy : d.node_accuracy);
+            for (const double number : {v.correlated, v.beta, v.correlated_sum, v.beta_sum, v.mu})
+                *to++ = number;
+        }
+    };
+    return rows;
+}
+
+Table glass_anisotropy_table(const Definition& d, const std::vector<double>& integrals)
+{
     const bool beta = d.info.transmission_shadowing == "beta";
     const std::array<int, 5> size = glass_anisotropy_size(d.family.inside);
+    const Lattice lattice = lattice_of(size, integrals);
 
     struct Check
     {
@@ -189,12 +212,12 @@ Table bake_glass_anisotropy(const Definition& d, const BakeProgress& progress)
         bool promised;
     };
     std::vector<double> nodes;
-    for (const GlassAnisotropy::Values& v : lattice->nodes)
+    for (const GlassAnisotropy::Values& v : lattice.nodes)
         nodes.push_back(std::clamp(beta ? v.beta : v.correlated, d.lowest, d.highest));
     std::vector<Check> checks;
     std::size_t cell = 0;
     for_each(size, true, [&](const TablePoint&, std::size_t node) {
-        const GlassAnisotropy::Values& v = lattice->middles[cell++];
+        const GlassAnisotropy::Values& v = lattice.middles[cell++];
         const double sum = beta ? v.beta_sum : v.correlated_sum;
         // Levelled a little beyond what is promised, lest nodes at its bounds follow one side.
         if (!GlassAnisotropy::promised(v.mu, sum, 0.4)) return;

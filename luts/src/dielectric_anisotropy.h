@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "definition.h"
+#include "integral_rows.h"
 
 REGAIN_NAMESPACE_BEGIN
 namespace luts {
@@ -35,8 +35,9 @@ struct GlassAnisotropy
 /// Nodes along its axes.
 std::array<int, 5> glass_anisotropy_size(bool inside);
 
-/// The table, its nodes levelled.
-Table bake_glass_anisotropy(const Definition& definition, const BakeProgress& progress);
+/// What rows_of and table_of do for it.
+IntegralRows glass_anisotropy_rows(const Definition& definition);
+Table glass_anisotropy_table(const Definition& definition, const std::vector<double>& integrals);
 
 }  // namespace luts
 REGAIN_NAMESPACE_END

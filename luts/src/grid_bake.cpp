@@ -3,13 +3,12 @@
 
 #include "grid_bake.h"
 
-#include "parallel.h"
-
 #include <Imath/half.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 
 REGAIN_NAMESPACE_BEGIN
 namespace luts {
@@ -39,6 +38,7 @@ struct Lattice
 
     explicit Lattice(const Size& s) : size(s), values(count(s)), promised(count(s)) {}
 
+    std::ptrdiff_t plane() const { return static_cast<std::ptrdiff_t>(size[0] * size[1]); }
     std::size_t rows() const { return values.size() / (size[0] * size[1]); }
     Place place(std::size_t i) const
     {
@@ -52,32 +52,60 @@ struct Lattice
     }
 };
 
+Size size_of(const Definition& d)
+{
+    return {std::size_t(d.width), std::size_t(d.height), std::size_t(d.depth),
+            std::size_t(d.info.length_4), std::size_t(d.info.length_5)};
+}
+
+Size middles(const Size& size)
+{
+    return {size[0] - 1, size[1] - 1, size[2] - 1, size[3] - 1, cells(size[4])};
+}
+
+// Of a row, a plane of the nodes: each number, and 1 where its error is promised. One of middles is
+// shorter.
+std::ptrdiff_t row_length(const Size& size)
+{
+    return static_cast<std::ptrdiff_t>(2 * size[0] * size[1]);
+}
+
+void integrate(const Definition& d, const Size& size, const Lattice& lattice, double shift,
+               std::size_t row, int accuracy, double* to)
+{
+    const Place p = lattice.place(row * lattice.size[0] * lattice.size[1]);
+    const auto coordinate = [&](std::size_t i, std::size_t axis) {
+        return (static_cast<double>(i) + shift) / static_cast<double>(cells(size[axis]));
+    };
+    std::vector<double> xs, ys;
+    for (std::size_t i = 0; i < lattice.size[0]; ++i) xs.push_back(coordinate(i, 0));
+    for (std::size_t i = 0; i < lattice.size[1]; ++i) ys.push_back(coordinate(i, 1));
+    const Family::Plane plane = d.family.plane(xs, ys, coordinate(p[2], 2), coordinate(p[3], 3),
+                                               coordinate(p[4], 4), accuracy);
+    for (std::size_t i = 0; i < plane.values.size(); ++i)
+    {
+        *to++ = plane.values[i];
+        *to++ = plane.promised[i] ? 1 : 0;
+    }
+}
+
 class GridFit
 {
 public:
-    GridFit(const Definition& definition, const BakeProgress& progress)
+    GridFit(const Definition& definition, const std::vector<double>& integrals)
         : _definition(definition),
-          _size{std::size_t(definition.width), std::size_t(definition.height),
-                std::size_t(definition.depth), std::size_t(definition.info.length_4),
-                std::size_t(definition.info.length_5)},
+          _size(size_of(definition)),
           _nodes(_size),
-          _middles({_size[0] - 1, _size[1] - 1, _size[2] - 1, _size[3] - 1, cells(_size[4])})
+          _middles(middles(_size))
     {
-        // Words of packed bools are shared by rows.
-        std::vector<std::vector<bool>> promised(_nodes.rows() + _middles.rows());
-        parallel_for(promised.size(), progress, [&](std::size_t row) {
-            const bool nodes = row < _nodes.rows();
-            promised[row] = integrate(
-                nodes ? _nodes : _middles, nodes ? 0 : 0.5, nodes ? row : row - _nodes.rows(),
-                nodes ? _definition.node_accuracy : _definition.check_accuracy);
-        });
-        std::size_t row = 0;
+        auto row = integrals.begin();
         for (Lattice* lattice : {&_nodes, &_middles})
-        {
-            auto to = lattice->promised.begin();
-            for (std::size_t i = 0; i < lattice->rows(); ++i, ++row)
-                to = std::copy(promised[row].begin(), promised[row].end(), to);
-        }
+            for (std::size_t i = 0; i < lattice->values.size(); row += row_length(_size))
+                for (std::ptrdiff_t n = 0; n < lattice->plane(); ++n, ++i)
+                {
+                    lattice->values[i] = row[2 * n];
+                    lattice->promised[i] = row[2 * n + 1] > 0;
+                }
         _numbers = _nodes.values;
         for (std::size_t corner = 0; corner < corners; ++corner)
         {
@@ -131,23 +159,6 @@ public:
     std::vector<float> numbers() const { return {_numbers.begin(), _numbers.end()}; }
 
 private:
-    std::vector<bool> integrate(Lattice& lattice, double shift, std::size_t row, int accuracy)
-    {
-        const std::size_t first = row * lattice.size[0] * lattice.size[1];
-        const Place p = lattice.place(first);
-        const auto coordinate = [&](std::size_t i, std::size_t axis) {
-            return (static_cast<double>(i) + shift) / static_cast<double>(cells(_size[axis]));
-        };
-        std::vector<double> xs, ys;
-        for (std::size_t i = 0; i < lattice.size[0]; ++i) xs.push_back(coordinate(i, 0));
-        for (std::size_t i = 0; i < lattice.size[1]; ++i) ys.push_back(coordinate(i, 1));
-        const Family::Plane plane = _definition.family.plane(
-            xs, ys, coordinate(p[2], 2), coordinate(p[3], 3), coordinate(p[4], 4), accuracy);
-        std::copy(plane.values.begin(), plane.values.end(),
-                  lattice.values.begin() + static_cast<std::ptrdiff_t>(first));
-        return plane.promised;
-    }
-
     // visit(lowest node, relative error, is the middle of a cell) wherever errors are promised.
     template <class Visit>
     void for_each_error(const Visit& visit) const
@@ -175,9 +186,28 @@ private:
 
 }  // namespace
 
-Table bake_grid(const Definition& definition, const BakeProgress& progress)
+IntegralRows grid_rows(const Definition& d)
 {
-    GridFit fit(definition, progress);
+    const Size size = size_of(d);
+    const auto nodes = std::make_shared<const Lattice>(size);
+    const auto between = std::make_shared<const Lattice>(middles(size));
+    IntegralRows rows;
+    rows.name = d.info.distribution + " " + d.info.quantity;
+    rows.count = nodes->rows() + between->rows();
+    rows.across = size[2];
+    rows.length = static_cast<std::size_t>(row_length(size));
+    rows.integrate = [d, size, nodes, between](std::size_t row, double* to) {
+        if (row < nodes->rows())
+            integrate(d, size, *nodes, 0, row, d.node_accuracy, to);
+        else
+            integrate(d, size, *between, 0.5, row - nodes->rows(), d.check_accuracy, to);
+    };
+    return rows;
+}
+
+Table grid_table(const Definition& definition, const std::vector<double>& integrals)
+{
+    GridFit fit(definition, integrals);
     fit.level();
     fit.round();
     TableInfo info = definition.info;

@@ -3,13 +3,14 @@
 
 #pragma once
 
-#include "definition.h"
+#include "integral_rows.h"
 
 REGAIN_NAMESPACE_BEGIN
 namespace luts {
 
-/// What bake() does for tables of five axes.
-Table bake_grid(const Definition& definition, const BakeProgress& progress);
+/// What rows_of and table_of do for tables of five axes.
+IntegralRows grid_rows(const Definition& definition);
+Table grid_table(const Definition& definition, const std::vector<double>& integrals);
 
 }  // namespace luts
 REGAIN_NAMESPACE_END

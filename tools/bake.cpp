@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright Contributors to the Regain project
 
+#include "bake_parts.h"
 #include "bake_table.h"
 #include "bake_verify.h"
 #include "commands.h"
 #include "errors.h"
 #include "export_fits.h"
 #include "json_fields.h"
+#include "part_options.h"
 #include "preview/interrupt.h"
 
 #include <regain/luts/bake.h>
@@ -15,13 +17,16 @@
 #include <regain/luts/replace_file.h>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <optional>
 
 namespace regain::tools {
 namespace {
@@ -50,6 +55,10 @@ and 5e-3 on, mu from 0.018 on of dielectrics.
 they do not. With --spot it does not bake but compares with exact values at K places, which takes a
 second.
 
+--part K/N integrates at every N-th place, for all that is asked for; --merge makes the tables of what
+all parts have found. A part's file has the name of the first table, in the folder that the tables go
+to. One that was stopped leaves nothing, and is run again.
+
 --export writes no table but the formulas that can stand in for those of ggx and beckmann mirrors, as
 functions in GLSL or OSL (E_ss, E_avg, q_ms and mu_ms; see docs/methods.md, Without tables). The
 extension of FILE says which.
@@ -62,6 +71,8 @@ examples:
   regain bake --distribution gtr --gamma 1.3 2 -o tables
                                                 those of dielectrics at each gamma;
                                                 REGAIN_LUTS=tables finds them
+  regain bake --all -o tables --part 3/7        on one of seven machines
+  regain bake --all -o tables --merge tables/ggx_E_ss.part-*-of-7
   regain bake --verify                          the compiled-in tables
   regain bake --verify luts/data/*.exr          the files, too
   regain bake --verify --all --spot 20          all tables that are shipped, at some places
@@ -76,6 +87,7 @@ struct Arguments
     std::vector<double> gammas;
     int spots = 0;
     bool all = false, verify = false, json = false;
+    PartOptions parts;
 };
 
 // What was asked for; nothing if that is the default.
@@ -188,6 +200,37 @@ int run_export(const Arguments& a)
     return kDone;
 }
 
+JobDescription job_of(const Names& names)
+{
+    JobDescription job = describe_job("bake");
+    job.add("definition", std::to_string(luts::table_definition));
+    job.add("tables", fmt::format("{}", fmt::join(names, " ")));
+    return job;
+}
+
+int run_part(const Arguments& a, const Names& names, const Part& part, const InterruptGuard& guard)
+{
+    const auto start = std::chrono::steady_clock::now();
+    const fs::path folder = a.output.empty() ? a.embed : a.output;
+    const fs::path file = part_file_name(folder / names.front(), part);
+    const BakeParts parts(names);
+    try
+    {
+        parts.write(file, job_of(names), part, guard);
+    }
+    catch (const luts::BakeStopped&)
+    {
+        fmt::print(stderr, "regain: stopped, '{}' was not written: run the part again\n",
+                   file.string());
+        return kInterrupted;
+    }
+    const double seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    report_part(part, file, parts.rows_of(part), parts.rows(), "rows of integrals", seconds,
+                a.json);
+    return kDone;
+}
+
 int run_bake(const Arguments& a, const InterruptGuard& guard)
 {
     if (a.output.empty() && a.embed.empty())
@@ -199,6 +242,9 @@ int run_bake(const Arguments& a, const InterruptGuard& guard)
     if (!a.embed.empty()) make_folder(a.embed);
 
     const Names names = asked.empty() ? luts::compiled_in_tables() : asked;
+    if (const std::optional<Part> part = a.parts.chosen()) return run_part(a, names, *part, guard);
+    std::optional<BakeParts> parts;
+    if (a.parts.merges()) parts.emplace(names).merge(a.parts.merged, job_of(names));
     Json report = Json::array();
     int code = kDone;
     if (!a.json)
@@ -208,7 +254,7 @@ int run_bake(const Arguments& a, const InterruptGuard& guard)
         luts::Table table;
         try
         {
-            table = bake_showing(name, guard);
+            table = parts ? parts->table(name) : bake_showing(name, guard);
         }
         catch (const luts::BakeStopped&)
         {
@@ -242,6 +288,9 @@ int run_verify(const Arguments& a, const InterruptGuard& guard)
 
 int run(const Arguments& a)
 {
+    if (const std::string with = a.parts.given();
+        !with.empty() && (a.verify || !a.exported.empty()))
+        throw BadInput(fmt::format("{} does not go with --verify and --export", with));
     if (!a.exported.empty()) return run_export(a);
     const InterruptGuard guard;
     try
@@ -273,6 +322,7 @@ void add_bake(CLI::App& app, int& exit_code)
     command->add_option("--gamma", a->gammas, "of gtr or std: dielectrics with these tails")
         ->type_name("G ...");
     command->add_option("-o,--output", a->output, "folder for EXR files");
+    declare(a->parts, *command);
     command->add_option("--embed", a->embed, "folder for the text that is compiled in");
     command
         ->add_option("--export", a->exported, "file for formulas in place of tables, .glsl or .osl")

@@ -7,7 +7,7 @@ include(${CMAKE_CURRENT_LIST_DIR}/common.cmake)
 
 set(patterns .ci/run regain)
 foreach(folder cmake closures shaders adapters luts tests tools bench docs)
-  foreach(kind *.h *.c *.cpp *.cu *.cmake *.cmake.in CMakeLists.txt *.sh *.py *.mtlx)
+  foreach(kind *.h *.c *.cpp *.cu *.cmake *.cmake.in CMakeLists.txt *.sh *.slurm *.py *.mtlx)
     list(APPEND patterns ${folder}/${kind})
   endforeach()
 endforeach()

@@ -6,6 +6,8 @@
 
 #pragma once
 
+#include "../tools/table_bytes.h"
+
 #include <regain/closures/beckmann.h>
 #include <regain/closures/dielectric.h>
 #include <regain/closures/ggx.h>
@@ -51,27 +53,7 @@ Distribution<Real> distribution_of(const Real& alpha)
         return Distribution<Real>(alpha);
 }
 
-/// Bytes of the numbers that a closure with these tables may read.
-inline std::size_t bytes_of(const TableView& t)
-{
-    const int nodes = t ? t.width * (t.height > 0 ? t.height : 1) * t.depth : 0;
-    return sizeof(std::uint16_t) * static_cast<std::size_t>(nodes);
-}
-inline std::size_t bytes_of(const MicrofacetTables& t)
-{
-    std::size_t sum = 0;
-    for (const TableView* view : {&t.E_ss, &t.E_avg, &t.falloff, &t.dip, &t.balance, &t.q_ms,
-                                  &t.mu_ms, &t.spread, &t.forward, &t.tilt})
-        sum += bytes_of(*view);
-    return sum;
-}
-inline std::size_t bytes_of(const DielectricTables& t)
-{
-    std::size_t sum = 0;
-    for (int side = 0; side < 2; ++side)
-        sum += bytes_of(t.E[side]) + bytes_of(t.R[side]) + bytes_of(t.later[side]);
-    return sum;
-}
+using tools::bytes_of;
 
 struct TableSets
 {

@@ -22,34 +22,45 @@ Inputs::Inputs(bool both_sides)
     }
 }
 
-std::vector<Times> clocked(const std::vector<Clocked>& clocks, const Request& request)
+std::vector<Times> clocked(const std::vector<Clocked>& clocks, int rounds,
+                           const std::function<bool()>& stopped)
 {
-    const int rounds = std::max(3, static_cast<int>(31 * std::min(1.0, request.precision)));
-    std::vector<std::vector<double>> evals(clocks.size()), samples(clocks.size());
-    for (int round = 0; round < rounds; ++round)
+    constexpr int repeats = 9, least_rounds = 3;
+    constexpr double slow = 1e4;  // nanoseconds
+    struct Turns
     {
-        if (request.stopped()) throw Stopped();
-        for (std::size_t i = 0; i < clocks.size(); ++i)
-        {
-            evals[i].push_back(clocks[i].eval(9));
-            samples[i].push_back(clocks[i].sample(9));
-        }
+        const std::function<double(int)>* work;
+        std::vector<double> times;
+    };
+    std::vector<Turns> all;
+    for (const Clocked& c : clocks)
+    {
+        all.push_back({&c.eval, {}});
+        all.push_back({&c.sample, {}});
     }
+    for (int round = 0; round < rounds; ++round)
+        for (Turns& t : all)
+        {
+            if (stopped()) throw Stopped();
+            const bool is_slow = !t.times.empty() && t.times.front() > slow;
+            if (is_slow && round >= least_rounds) continue;
+            t.times.push_back((*t.work)(t.times.empty() || is_slow ? 1 : repeats));
+        }
     const auto median = [](std::vector<double>& times) {
         const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
         std::nth_element(times.begin(), middle, times.end());
         return *middle;
     };
     std::vector<Times> result;
-    for (std::size_t i = 0; i < clocks.size(); ++i)
-        result.push_back({median(evals[i]), median(samples[i])});
+    for (std::size_t i = 0; i < all.size(); i += 2)
+        result.push_back({median(all[i].times), median(all[i + 1].times)});
     return result;
 }
 
-std::size_t bytes(const TableView& table)
+std::vector<Times> clocked(const std::vector<Clocked>& clocks, const Request& request)
 {
-    return sizeof(std::uint16_t) * static_cast<std::size_t>(table.width) *
-           static_cast<std::size_t>(table.height) * static_cast<std::size_t>(table.depth);
+    const int rounds = std::max(3, static_cast<int>(31 * std::min(1.0, request.precision)));
+    return clocked(clocks, rounds, [&] { return request.stopped(); });
 }
 
 }  // namespace regain::tools::figures

@@ -9,9 +9,6 @@
 #include "figure.h"
 #include "measures.h"
 
-#include <regain/closures/table.h>
-
-#include <cstddef>
 #include <functional>
 #include <vector>
 
@@ -59,10 +56,9 @@ Clocked clock_of(const Closure& closure, const Inputs& inputs)
 }
 
 /// Rounds of all in turn, so that a slow moment of the machine meets all of them; the median over
-/// the rounds of each. Throws Stopped.
+/// the rounds of each. What is slow takes fewer. Throws Stopped.
+std::vector<Times> clocked(const std::vector<Clocked>& clocks, int rounds,
+                           const std::function<bool()>& stopped);
 std::vector<Times> clocked(const std::vector<Clocked>& clocks, const Request& request);
-
-/// Size of a table in memory.
-std::size_t bytes(const TableView& table);
 
 }  // namespace regain::tools::figures

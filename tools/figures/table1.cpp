@@ -5,6 +5,7 @@
 // shape are held against the random walk, which is exact for the model.
 
 #include "table1.h"
+#include "../table_bytes.h"
 #include "clock.h"
 #include "figure.h"
 #include "measures.h"
@@ -355,7 +356,7 @@ Figure make_table1(const Request& request)
     const Inputs inputs;
 
     const MicrofacetTables tables = luts::ggx_tables();
-    const std::size_t E_ss = bytes(tables.E_ss), E_avg = bytes(tables.E_avg);
+    const std::size_t E_ss = bytes_of(tables.E_ss), E_avg = bytes_of(tables.E_avg);
     std::vector<Row> rows;
     const auto add = [&](const std::string& name, const std::string& form, const auto& make,
                          std::size_t size) {
@@ -368,18 +369,18 @@ Figure make_table1(const Request& request)
             method == Method::none ? 0 : E_ss + (averaged ? E_avg : 0));
     }
     add("directional", "gain(wo)", with_directional_gain(),
-        E_ss + bytes(tables.q_ms) + bytes(tables.mu_ms));
+        E_ss + bytes_of(tables.q_ms) + bytes_of(tables.mu_ms));
     add("balanced", "gain(wo) gain(wi)", with_balanced_gain(),
-        E_ss + bytes(tables.balance) + bytes(tables.q_ms) + bytes(tables.mu_ms));
+        E_ss + bytes_of(tables.balance) + bytes_of(tables.q_ms) + bytes_of(tables.mu_ms));
     for (const KullaContyForm form : all_kulla_conty_forms)
         add(std::string(name(form)), "added lobe", with_added_lobe(form), E_ss);
     add("tail", "added lobe", with_tail(),
-        E_ss + bytes(tables.falloff) + bytes(tables.dip) + bytes(tables.q_ms) +
-            bytes(tables.mu_ms) + bytes(tables.spread) + bytes(tables.forward) +
-            bytes(tables.tilt));
+        E_ss + bytes_of(tables.falloff) + bytes_of(tables.dip) + bytes_of(tables.q_ms) +
+            bytes_of(tables.mu_ms) + bytes_of(tables.spread) + bytes_of(tables.forward) +
+            bytes_of(tables.tilt));
     add("walk", "replaces the lobe", walking(), 0);
     add("walk-bounded", "replaces the lobe", walking_within_bounds(),
-        E_ss + E_avg + bytes(tables.spread) + bytes(tables.forward));
+        E_ss + E_avg + bytes_of(tables.spread) + bytes_of(tables.forward));
     std::vector<Clocked> clocks;
     for (const Row& row : rows) clocks.push_back(row.clocked);
     const std::vector<Times> times = clocked(clocks, request);

@@ -4,6 +4,7 @@
 // Table 1 for rough glass of index 1.5: what each method does to the energy, and to its split
 // between reflection and transmission, seen from either side.
 
+#include "../table_bytes.h"
 #include "clock.h"
 #include "table1.h"
 
@@ -130,15 +131,15 @@ void add_glass(const Request& request, Figure& figure)
     };
 
     const std::vector<double> shares = walked_shares(request);
-    const std::size_t E = bytes(tables.E[0]) + bytes(tables.E[1]);
+    const std::size_t E = bytes_of(tables.E[0]) + bytes_of(tables.E[1]);
     std::vector<Row> rows = {{"none", "-", measured(none, shares, request)},
                              {"turquin", "gain(wo), Eq. 18", measured(ours, shares, request)},
                              {"kulla-conty", "added lobes", measured(added, shares, request)},
                              {"tail", "added lobes, beta", measured(tail, shares, request)},
                              {"walk", "replaces the lobe", measured(walk, shares, request)}};
     rows[1].measured.tables = rows[2].measured.tables = E;
-    rows[3].measured.tables = bytes(of_beta.E[0]) + bytes(of_beta.E[1]) + bytes(of_beta.later[0]) +
-                              bytes(of_beta.later[1]);
+    rows[3].measured.tables = bytes_of(of_beta.E[0]) + bytes_of(of_beta.E[1]) +
+                              bytes_of(of_beta.later[0]) + bytes_of(of_beta.later[1]);
     const Inputs inputs(true);
     const GGX<float> rough(0.5f);
     const std::vector<Times> times =

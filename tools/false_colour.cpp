@@ -14,18 +14,14 @@ namespace regain::tools {
 
 using Imath::C3f;
 
-namespace {
-
 // White in the middle; evenly darker to the eye on both sides, told apart by the colour-blind.
-C3f colour_of(double t)
+C3f difference_colour(double t)
 {
     const float x = static_cast<float>(std::clamp(t, -1.0, 1.0)), a = std::abs(x);
     const C3f end = x > 0 ? C3f(0.70f, 0.02f, 0.10f) : C3f(0.02f, 0.19f, 0.62f),
               middle = x > 0 ? C3f(0.96f, 0.55f, 0.39f) : C3f(0.40f, 0.66f, 0.87f), white(0.97f);
     return a < 0.5f ? white + (middle - white) * (2 * a) : middle + (end - middle) * (2 * a - 1);
 }
-
-}  // namespace
 
 Difference difference_of(const Picture& a, const Picture& b)
 {
@@ -48,11 +44,12 @@ DisplayPicture false_colour(const Picture& a, const Picture& b, double scale)
     for (std::size_t i = 0; i < a.pixels.size(); ++i)
     {
         const C3f d = a.pixels[i] - b.pixels[i];
-        shown.pixels.push_back(colour_of(double(d.x + d.y + d.z) / 3 / scale));
+        shown.pixels.push_back(difference_colour(double(d.x + d.y + d.z) / 3 / scale));
     }
     for (int y = 0; y < 2 * bar; ++y)
         for (int x = 0; x < a.width; ++x)
-            shown.pixels.push_back(y < bar ? colour_of(2 * (x + 0.5) / a.width - 1) : C3f(0.97f));
+            shown.pixels.push_back(y < bar ? difference_colour(2 * (x + 0.5) / a.width - 1)
+                                           : C3f(0.97f));
     for (const double t : {-1.0, -0.5, 0.0, 0.5, 1.0})
     {
         const int margin = a.width / 16;

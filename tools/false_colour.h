@@ -19,6 +19,9 @@ struct Difference
 
 Difference difference_of(const Picture& a, const Picture& b);
 
+/// From -1 (blue) over 0 (white) to 1 (red), as a display takes it; what is beyond is an end.
+Imath::C3f difference_colour(double t);
+
 /// a - b, in the mean of the channels, from -scale (blue) to scale (red); a bar below it is
 /// labelled where there is a font. Pictures are of one size, scale above 0.
 DisplayPicture false_colour(const Picture& a, const Picture& b, double scale);

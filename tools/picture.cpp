@@ -6,6 +6,7 @@
 #include <regain/luts/replace_file.h>
 
 #include <Imath/half.h>
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
@@ -162,11 +163,9 @@ void write_exr(const fs::path& file, const Picture& picture, const Metadata& met
     write(file, spec, OIIO::TypeDesc::FLOAT, values.data());
 }
 
-void write_png(const fs::path& file, const Picture& picture, const shaders::ColorConfig& config,
-               const std::string& display, const std::string& view)
+DisplayPicture displayed(const Picture& picture, const shaders::ColorConfig& config,
+                         const std::string& display, const std::string& view)
 {
-    need_extension(file, ".png");
-    check(file, picture);
     const shaders::ColorTransform to_display = config.display_transform(display, view);
     std::vector<Imath::C3f> pixels = picture.pixels;
     to_display.apply(pixels);
@@ -180,8 +179,15 @@ void write_png(const fs::path& file, const Picture& picture, const shaders::Colo
             const float v = p[c] > 0 ? std::min(p[c], 1.0f) : 0.0f;
             bytes.bytes.push_back(static_cast<std::uint8_t>(v * 255.0f + 0.5f));
         }
+    return bytes;
+}
 
-    write_png(file, bytes);
+void write_png(const fs::path& file, const Picture& picture, const shaders::ColorConfig& config,
+               const std::string& display, const std::string& view)
+{
+    need_extension(file, ".png");
+    check(file, picture);
+    write_png(file, displayed(picture, config, display, view));
 }
 
 void write_png(const fs::path& file, const DisplayPicture& picture)
@@ -191,6 +197,22 @@ void write_png(const fs::path& file, const DisplayPicture& picture)
     OIIO::ImageSpec spec(picture.width, picture.height, 3, OIIO::TypeDesc::UINT8);
     spec.attribute("Software", software);
     write(file, spec, OIIO::TypeDesc::UINT8, picture.bytes.data());
+}
+
+std::string png_bytes(const DisplayPicture& picture)
+{
+    const fs::path name("a picture in memory.png");
+    check_size(name, picture.width, picture.height, picture.bytes.size() / 3);
+    OIIO::ImageSpec spec(picture.width, picture.height, 3, OIIO::TypeDesc::UINT8);
+    spec.attribute("Software", software);
+    OIIO::Filesystem::IOVecOutput memory;
+    const auto output = OIIO::ImageOutput::create(name.string(), &memory);
+    if (!output) fail(name, OIIO::geterror());
+    if (!output->open(name.string(), spec) ||
+        !output->write_image(OIIO::TypeDesc::UINT8, picture.bytes.data()) || !output->close())
+        fail(name, output->geterror());
+    const auto& bytes = memory.buffer();
+    return std::string(bytes.begin(), bytes.end());
 }
 
 }  // namespace regain::tools

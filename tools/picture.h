@@ -60,13 +60,6 @@ struct Layer
 void write_exr(const std::filesystem::path& file, const Picture& picture, const Metadata& metadata,
                const std::vector<Layer>& layers = {});
 
-/// 8 bits a channel, through the display and view of the config ("" = default); values are clamped
-/// to [0, 1] and rounded to the nearest step, without dither. Throws as write_exr does (the
-/// name must end in .png), and where the config does not know the display or the view.
-void write_png(const std::filesystem::path& file, const Picture& picture,
-               const shaders::ColorConfig& config, const std::string& display,
-               const std::string& view);
-
 /// Row-major, top row first, three bytes a pixel as a display takes them.
 struct DisplayPicture
 {
@@ -74,8 +67,22 @@ struct DisplayPicture
     std::vector<std::uint8_t> bytes;
 };
 
+/// 8 bits a channel, through the display and view of the config ("" = default); values are clamped
+/// to [0, 1] and rounded to the nearest step, without dither. Throws where the config does not know
+/// the display or the view.
+DisplayPicture displayed(const Picture& picture, const shaders::ColorConfig& config,
+                         const std::string& display, const std::string& view);
+
+/// Those. Throws as write_exr does (the name must end in .png), and as `displayed`.
+void write_png(const std::filesystem::path& file, const Picture& picture,
+               const shaders::ColorConfig& config, const std::string& display,
+               const std::string& view);
+
 /// Those bytes. Throws std::runtime_error if the size does not fit them, if the name does not end
 /// in .png, or if the file cannot be written.
 void write_png(const std::filesystem::path& file, const DisplayPicture& picture);
+
+/// The same as the bytes of such a file.
+std::string png_bytes(const DisplayPicture& picture);
 
 }  // namespace regain::tools

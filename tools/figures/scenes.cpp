@@ -37,13 +37,13 @@ int scaled(const Request& request, int pixels)
 
 }  // namespace
 
-CellPicture render_cell(const Request& request, const std::string& label, const Cell& cell,
-                        int width, int height)
+CellStage::CellStage(const Request& request, const Cell& cell, int width, int height)
+    : _light(cell.white_furnace ? white_dome() : make_studio()),
+      _scene(cell.layout),
+      _width(scaled(request, width)),
+      _height(scaled(request, height)),
+      _camera(_scene.camera(static_cast<float>(_width) / static_cast<float>(_height)))
 {
-    const Environment light(cell.white_furnace ? white_dome() : make_studio());
-    const RowScene scene(cell.layout);
-    const int w = scaled(request, width), h = scaled(request, height);
-    const Camera camera = scene.camera(static_cast<float>(w) / static_cast<float>(h));
     std::vector<std::unique_ptr<BoundMaterial>> materials;
     const auto add = [&](MicrofacetMaterial material) {
         material.bind_tables();
@@ -53,13 +53,21 @@ CellPicture render_cell(const Request& request, const std::string& label, const 
     for (const MicrofacetMaterial& material : cell.objects) add(material);
     if (cell.object)
         for (int i = 0; i < cell.layout.objects; ++i) materials.push_back(cell.object(i));
-    const RowIntegrator integrator(
-        Host::renderman,
-        World{scene.scene(), light, camera, w, h, request.seed, cell.layout.transparent ? 64 : 16},
-        std::move(materials));
+    _integrator =
+        std::make_unique<RowIntegrator>(Host::renderman,
+                                        World{_scene.scene(), _light, _camera, _width, _height,
+                                              request.seed, cell.layout.transparent ? 64 : 16},
+                                        std::move(materials));
+}
+
+CellPicture render_cell(const Request& request, const std::string& label, const Cell& cell,
+                        int width, int height)
+{
+    const CellStage stage(request, cell, width, height);
+    const int w = stage.width(), h = stage.height();
     Film film(w, h);
     RenderJob job;
-    job.targets.push_back({&integrator.get(), &film});
+    job.targets.push_back({&stage.integrator(), &film});
     job.samples = request.samples;
     job.threads = request.threads;
     job.stop = request.stop;

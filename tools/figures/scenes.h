@@ -28,6 +28,24 @@ struct Cell
     bool white_furnace = false;  ///< light of radiance 1 from everywhere, instead of the studio
 };
 
+/// What a cell is rendered with, at width x height pixels before the request's scale. The request
+/// is not kept.
+class CellStage
+{
+public:
+    CellStage(const Request&, const Cell&, int width, int height);
+    const preview::Integrator& integrator() const { return _integrator->get(); }
+    int width() const { return _width; }
+    int height() const { return _height; }
+
+private:
+    preview::Environment _light;
+    preview::RowScene _scene;
+    int _width, _height;
+    preview::Camera _camera;
+    std::unique_ptr<preview::RowIntegrator> _integrator;
+};
+
 struct CellPicture
 {
     Picture picture;

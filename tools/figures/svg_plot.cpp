@@ -3,6 +3,8 @@
 
 #include "svg_plot.h"
 
+#include "svg_parts.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,37 +15,7 @@ namespace {
 
 using Imath::V2d;
 
-constexpr const char* font = "font-family=\"sans-serif\" font-size=\"13\"";
 constexpr double line_height = 18;
-
-std::string escaped(const std::string& text)
-{
-    std::string out;
-    for (const char c : text)
-    {
-        if (c == '<')
-            out += "&lt;";
-        else if (c == '>')
-            out += "&gt;";
-        else if (c == '&')
-            out += "&amp;";
-        else
-            out += c;
-    }
-    return out;
-}
-
-std::string text(double x, double y, const std::string& anchor, const std::string& words)
-{
-    return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>\n", x, y,
-                       anchor, escaped(words));
-}
-
-std::string line(const V2d& a, const V2d& b, const std::string& style)
-{
-    return fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" {}/>\n", a.x,
-                       a.y, b.x, b.y, style);
-}
 
 std::string stroke(const Curve& curve)
 {
@@ -74,20 +46,11 @@ std::string legend(const std::vector<Curve>& curves, double x, double y)
     {
         const V2d at(x, y - 4);
         out += curve.marks ? drawn(curve, {at + V2d(12, 0)})
-                           : line(at, at + V2d(24, 0), stroke(curve));
-        out += text(x + 30, y, "start", curve.label);
+                           : svg_line(at, at + V2d(24, 0), stroke(curve));
+        out += svg_text(x + 30, y, "start", curve.label);
         y += line_height;
     }
     return out;
-}
-
-std::string document(double width, double height, const std::string& body)
-{
-    return fmt::format(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" "
-        "viewBox=\"0 0 {0:.0f} {1:.0f}\" {2}>\n<rect width=\"100%\" height=\"100%\" "
-        "fill=\"white\"/>\n{3}</svg>\n",
-        width, height, font, body);
 }
 
 }  // namespace
@@ -101,25 +64,25 @@ std::string svg_plot(const std::string& title, const Axis& x, const Axis& y,
                    top + height * (1 - (p.y - y.low) / (y.high - y.low)));
     };
 
-    std::string out = text(left + width / 2, top - 16, "middle", title);
+    std::string out = svg_text(left + width / 2, top - 16, "middle", title);
     const auto ticks = [](const Axis& axis) {
         return static_cast<int>(std::floor((axis.high - axis.low) / axis.step + 1e-9));
     };
     for (int i = 0; i <= ticks(x); ++i)
     {
         const double at = x.low + i * x.step;
-        out += line(pixel({at, y.low}), pixel({at, y.high}), "stroke=\"#dddddd\"");
-        out += text(pixel({at, 0}).x, top + height + 20, "middle", fmt::format("{:.4g}", at));
+        out += svg_line(pixel({at, y.low}), pixel({at, y.high}), "stroke=\"#dddddd\"");
+        out += svg_text(pixel({at, 0}).x, top + height + 20, "middle", fmt::format("{:.4g}", at));
     }
     for (int i = 0; i <= ticks(y); ++i)
     {
         const double at = y.low + i * y.step;
-        out += line(pixel({x.low, at}), pixel({x.high, at}), "stroke=\"#dddddd\"");
-        out += text(left - 8, pixel({0, at}).y + 4, "end", fmt::format("{:.4g}", at));
+        out += svg_line(pixel({x.low, at}), pixel({x.high, at}), "stroke=\"#dddddd\"");
+        out += svg_text(left - 8, pixel({0, at}).y + 4, "end", fmt::format("{:.4g}", at));
     }
-    out += text(left + width / 2, top + height + 44, "middle", x.label);
+    out += svg_text(left + width / 2, top + height + 44, "middle", x.label);
     out += fmt::format("<g transform=\"translate(18 {:.0f}) rotate(-90)\">{}</g>\n",
-                       top + height / 2, text(0, 0, "middle", y.label));
+                       top + height / 2, svg_text(0, 0, "middle", y.label));
 
     // A clip of its own, so that several plots can share a page.
     static int clip = 0;
@@ -140,7 +103,7 @@ std::string svg_plot(const std::string& title, const Axis& x, const Axis& y,
         "stroke=\"black\"/>\n",
         left, top, width, height);
     out += legend(curves, left + width + 16, top + 14);
-    return document(left + width + right, top + height + bottom, out);
+    return svg_document(left + width + right, top + height + bottom, out);
 }
 
 std::string svg_lobes(const std::vector<LobePanel>& panels)
@@ -166,12 +129,12 @@ std::string svg_lobes(const std::vector<LobePanel>& panels)
         const auto pixel = [&](const V2d& p) {
             return origin + V2d(p.x, -p.y) * (radius / largest);
         };
-        out += text(origin.x, top - 14, "middle", panel.title);
-        out += line(origin - V2d(radius, 0), origin + V2d(radius, 0), "stroke=\"#888888\"");
+        out += svg_text(origin.x, top - 14, "middle", panel.title);
+        out += svg_line(origin - V2d(radius, 0), origin + V2d(radius, 0), "stroke=\"#888888\"");
         if (panel.arrow.length() > 0)
         {
             const V2d from = origin + V2d(panel.arrow.x, -panel.arrow.y) * radius;
-            out += line(from, origin, "stroke=\"#888888\" stroke-dasharray=\"3 3\"");
+            out += svg_line(from, origin, "stroke=\"#888888\" stroke-dasharray=\"3 3\"");
         }
         for (const Curve& curve : panel.curves)
         {
@@ -182,8 +145,8 @@ std::string svg_lobes(const std::vector<LobePanel>& panels)
     }
     const double below = top + height + 24;
     if (!panels.empty()) out += legend(panels.front().curves, margin, below);
-    return document(static_cast<double>(panels.size()) * 2 * (radius + margin),
-                    below + static_cast<double>(most) * line_height, out);
+    return svg_document(static_cast<double>(panels.size()) * 2 * (radius + margin),
+                        below + static_cast<double>(most) * line_height, out);
 }
 
 }  // namespace regain::tools::figures

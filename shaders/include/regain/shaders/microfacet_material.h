@@ -220,6 +220,10 @@ public:
             strength, visit);
     }
 
+    /// What bind_tables bound.
+    const MicrofacetTables& tables() const { return _tables; }
+    const DielectricTables& interface_tables() const { return _interface_tables; }
+
     const char* lobe_name() const
     {
         return is_interface()                                  ? "glass"

@@ -20,6 +20,7 @@ void add_albedo(CLI::App& app, int& exit_code);
 void add_query(CLI::App& app, int& exit_code);
 void add_bake(CLI::App& app, int& exit_code);
 void add_conform(CLI::App& app, int& exit_code);
+void add_cost(CLI::App& app, int& exit_code);
 void add_presets(CLI::App& app, int& exit_code);
 
 struct RenderOptions;

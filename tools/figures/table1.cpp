@@ -6,6 +6,7 @@
 
 #include "table1.h"
 #include "../table_bytes.h"
+#include "../tables_read.h"
 #include "clock.h"
 #include "figure.h"
 #include "measures.h"
@@ -356,31 +357,21 @@ Figure make_table1(const Request& request)
     const Inputs inputs;
 
     const MicrofacetTables tables = luts::ggx_tables();
-    const std::size_t E_ss = bytes_of(tables.E_ss), E_avg = bytes_of(tables.E_avg);
     std::vector<Row> rows;
-    const auto add = [&](const std::string& name, const std::string& form, const auto& make,
-                         std::size_t size) {
+    const auto add = [&](const std::string& name, const std::string& form, const auto& make) {
+        const auto size = bytes_of(tables_read(*shaders::compensation_named(name), tables));
         rows.push_back(measured_row(name, form, make, request, truth, inputs, size));
     };
     for (const Method method : all_methods)
-    {
-        const bool averaged = method == Method::turquin_eq12 || method == Method::series;
-        add(std::string(name(method)), method == Method::none ? "-" : "gain(wo)", with_gain(method),
-            method == Method::none ? 0 : E_ss + (averaged ? E_avg : 0));
-    }
-    add("directional", "gain(wo)", with_directional_gain(),
-        E_ss + bytes_of(tables.q_ms) + bytes_of(tables.mu_ms));
-    add("balanced", "gain(wo) gain(wi)", with_balanced_gain(),
-        E_ss + bytes_of(tables.balance) + bytes_of(tables.q_ms) + bytes_of(tables.mu_ms));
+        add(std::string(name(method)), method == Method::none ? "-" : "gain(wo)",
+            with_gain(method));
+    add("directional", "gain(wo)", with_directional_gain());
+    add("balanced", "gain(wo) gain(wi)", with_balanced_gain());
     for (const KullaContyForm form : all_kulla_conty_forms)
-        add(std::string(name(form)), "added lobe", with_added_lobe(form), E_ss);
-    add("tail", "added lobe", with_tail(),
-        E_ss + bytes_of(tables.falloff) + bytes_of(tables.dip) + bytes_of(tables.q_ms) +
-            bytes_of(tables.mu_ms) + bytes_of(tables.spread) + bytes_of(tables.forward) +
-            bytes_of(tables.tilt));
-    add("walk", "replaces the lobe", walking(), 0);
-    add("walk-bounded", "replaces the lobe", walking_within_bounds(),
-        E_ss + E_avg + bytes_of(tables.spread) + bytes_of(tables.forward));
+        add(std::string(name(form)), "added lobe", with_added_lobe(form));
+    add("tail", "added lobe", with_tail());
+    add("walk", "replaces the lobe", walking());
+    add("walk-bounded", "replaces the lobe", walking_within_bounds());
     std::vector<Clocked> clocks;
     for (const Row& row : rows) clocks.push_back(row.clocked);
     const std::vector<Times> times = clocked(clocks, request);

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright Contributors to the Regain project
+
+// `regain cost`: what accuracy costs in time, for every method and class of material.
+
+#include "commands.h"
+#include "cost/fronts.h"
+#include "cost/page.h"
+#include "cost/planner_data.h"
+#include "cost/run.h"
+#include "errors.h"
+#include "preview/interrupt.h"
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <memory>
+
+namespace regain::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options
+{
+    std::vector<std::string> classes, distributions, methods;
+    std::string folder = "cost", planner_file;
+    std::int64_t samples = 0, seed = 1, threads = 0;
+    double seconds = -1;
+    bool quick = false, quiet = false, json = false;
+};
+
+cost::RunOptions run_options(const Options& o)
+{
+    const auto check = [](const char* option, double value, double least, double most) {
+        if (!(value >= least && value <= most))
+            throw BadInput(fmt::format("{} {}: takes {} to {}", option, value, least, most));
+    };
+    cost::RunOptions run;
+    run.quick = o.quick;
+    run.samples = o.quick ? 16384 : 65536;
+    run.seconds_per_picture = o.quick ? 0.5 : 4;
+    if (o.samples != 0)
+    {
+        check("--samples", static_cast<double>(o.samples), 64, 1e9);
+        run.samples = static_cast<std::uint64_t>(o.samples);
+    }
+    if (o.seconds != -1)
+    {
+        check("--seconds-per-picture", o.seconds, 0, 86400);
+        run.seconds_per_picture = o.seconds;
+    }
+    check("--seed", static_cast<double>(o.seed), 0, 4294967295.0);
+    check("--threads", static_cast<double>(o.threads), 0, 1024);
+    run.request.seed = static_cast<std::uint32_t>(o.seed);
+    run.request.threads = static_cast<int>(o.threads);
+    run.request.progress = Progress::style(o.quiet);
+    run.choice = cost::everything(o.quick);
+    cost::keep_classes(run.choice, o.classes);
+    cost::keep_distributions(run.choice, o.distributions);
+    cost::keep_methods(run.choice, o.methods);
+    return run;
+}
+
+// Asked before hours are spent, not after.
+void check_file(const std::string& file)
+{
+    if (file.empty()) return;
+    const fs::path folder = fs::absolute(file).parent_path();
+    if (!fs::is_directory(folder) || fs::is_directory(file))
+        throw BadInput(
+            fmt::format("--planner-data {}: takes a file in a folder that is there", file));
+}
+
+void make_folder(const fs::path& folder)
+{
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error || !fs::is_directory(folder))
+        throw BadInput(fmt::format("cannot make the folder '{}': {}", folder.string(),
+                                   error ? error.message() : "a file of that name is there"));
+}
+
+int cost_command(const Options& options)
+{
+    cost::RunOptions run = run_options(options);
+    check_file(options.planner_file);
+    const fs::path folder = options.folder;
+    make_folder(folder);
+    const InterruptGuard interrupt;
+    run.request.stop = &interrupt.flag();
+    try
+    {
+        const cost::Results results = cost::run(run);
+        const std::vector<cost::Front> fronts = cost::fronts_of(results);
+        const std::string json = cost::as_json(results).dump(1);
+        figures::write_text(folder / "cost.csv", cost::as_csv(results));
+        figures::write_text(folder / "cost.json", json + "\n");
+        figures::write_text(folder / "cost.html", cost::html_page(results, fronts));
+        for (const auto& [file, svg] : cost::plots(fronts)) figures::write_text(folder / file, svg);
+        if (!options.planner_file.empty())
+            figures::write_text(options.planner_file, cost::planner_data(results));
+        if (options.json)
+            fmt::print("{}\n", json);
+        else if (!options.quiet)
+        {
+            for (const cost::Front& f : fronts)
+                if (f.law.label() == run.choice.laws.front().label())
+                    fmt::print("{}\n", f.sentence);
+            fmt::print("{}\n", (folder / "cost.html").string());
+        }
+    }
+    catch (const figures::Stopped&)
+    {
+        if (!options.quiet) fmt::print(stderr, "regain: interrupted; nothing was written\n");
+        return kInterrupted;
+    }
+    return kDone;
+}
+
+}  // namespace
+
+void add_cost(CLI::App& app, int& exit_code)
+{
+    auto options = std::make_shared<Options>();
+    CLI::App* command =
+        app.add_subcommand("cost", "What accuracy costs in time: every method, every material");
+    command->footer(R"(
+Every method of compensation, for metals, coloured metals, glass from either side and
+plastic, by every distribution and at widths from 0.05 to 1: how far albedo, colour and
+lobe are from the random walk's, how noisy samples are, how long an eval and a sample
+take, and which methods nothing else beats in both. docs/cost.md explains the numbers.
+
+Into the folder go cost.csv and cost.json for machines, cost.html for people, which needs
+no other file, and the plots of that page as SVG. Errors are measured on all threads,
+times on one: leave the machine alone meanwhile.
+
+Examples:
+  regain cost --quick                          a minute on two cores
+  regain cost -o /tmp/cost                     all; half an hour
+  regain cost --quick --class metal --distribution ggx --method none,turquin,walk
+  regain cost --planner-data method_costs.json what a renderer plans by)");
+    Options& o = *options;
+    command->add_option("--class", o.classes, "of materials, several by commas [all]")
+        ->delimiter(',');
+    command->add_option("--distribution", o.distributions, "several by commas [all]")
+        ->delimiter(',');
+    command->add_option("--method", o.methods, "of compensation, several by commas [all]")
+        ->delimiter(',');
+    command->add_flag("--quick", o.quick, "three widths, one eta, fewer samples");
+    command->add_option("--samples", o.samples,
+                        "for each direction, 64 to 1e9; the walk takes four times as many "
+                        "[65536; quick: 16384]");
+    command->add_option("--seconds-per-picture", o.seconds,
+                        "of the pictures in equal time, 0 for none [4; quick: 0.5]");
+    command->add_option("--seed", o.seed, "of the random numbers")->capture_default_str();
+    command->add_option("--threads", o.threads, "0: one per core; never changes an error")
+        ->capture_default_str();
+    command->add_option("-o,--output", o.folder, "folder to write, made if it is not there")
+        ->capture_default_str();
+    command->add_option("--planner-data", o.planner_file,
+                        "file to write with errors and time ratios alone, as JSON");
+    command->add_flag("--quiet", o.quiet, "no progress, no summary");
+    command->add_flag("--json", o.json, "cost.json on standard output, too");
+    command->callback([options, &exit_code] {
+        exit_code = run_reporting([&] { return cost_command(*options); });
+    });
+}
+
+}  // namespace regain::tools

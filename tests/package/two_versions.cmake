@@ -21,7 +21,7 @@ function(change file from to)
   endif()
   file(WRITE ${SCRATCH}/second/regain/closures/${file} "${changed}")
 endfunction()
-change(version.h "inline namespace v0_1" "inline namespace v0_2")
+change(version.h "REGAIN_ABI_NAMESPACE v0_1" "REGAIN_ABI_NAMESPACE v0_2")
 change(conductor_fresnel.h "return channel(n, k, std::decay_t<decltype(n)>(mu))"
   "return channel(n, k, std::decay_t<decltype(n)>(mu)) * Real(0.5f)")
 

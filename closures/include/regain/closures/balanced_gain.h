@@ -96,6 +96,7 @@ public:
         REGAIN_INLINE Color pair(const Vec3<Real>& wi) const
         {
             if (!_gain._bound) return Color(Real(1));
+            REGAIN_COUNTED(gains);
             const Vec3<Real> w = above(wi);
             const Channels tint = _tint + _gain._rise * w.z;
             return detail::color(Channels(Real(1)) + tint * (_g * _gain._balance.at(w) - Real(1)));

@@ -41,6 +41,7 @@
 
 #pragma once
 
+#include <regain/closures/count.h>
 #include <regain/closures/directional_gain.h>
 #include <regain/closures/microfacet_reflection.h>
 #include <regain/closures/walk_density.h>
@@ -295,6 +296,7 @@ public:
             /// True where it leaves; u as in WalkPhases.
             REGAIN_HOST_DEVICE Mask rises(Phases& phases, const Real& u, const Mask& lanes) const
             {
+                REGAIN_COUNTED(bounces);
                 return phases.rise(z, area, u, detail::both<Real>(lanes, up));
             }
             REGAIN_HOST_DEVICE void sinks(Phases& phases, const Mask& lanes) const

@@ -68,6 +68,7 @@ public:
     REGAIN_HOST_DEVICE Color at(const Vec3<Real>& wo) const
     {
         if (!_bound) return Color(Real(1));
+        REGAIN_COUNTED(gains);
         const MaskOf<Real> below = wo.z < Real(0);
         const Real mu = detail::saturate(detail::abs(wo.z));
         const Real eta = detail::select(below, _index[1].eta, _index[0].eta);

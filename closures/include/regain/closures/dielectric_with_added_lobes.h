@@ -8,6 +8,7 @@
 
 #pragma once
 
+#include <regain/closures/count.h>
 #include <regain/closures/dielectric.h>
 #include <regain/closures/sum.h>
 
@@ -67,7 +68,9 @@ public:
                                     const typename Added::Prepared& added)
             : Mixture::Prepared(lobe, added, size(closure, lobe, Real(1) - added.loss()),
                                 total(added.albedo()))
-        {}
+        {
+            REGAIN_COUNTED(gains);
+        }
 
         // Of reflection alone a sample is worth its share of E^S, which the average over directions
         // does not tell: near eta = 1 nothing reflects but what grazes. Of transmission alone the

@@ -69,6 +69,7 @@ public:
     REGAIN_HOST_DEVICE Color at(const Vec3<Real>& wo) const
     {
         if (!_bound) return Color(Real(1));
+        REGAIN_COUNTED(gains);
         const Real mu = detail::saturate(wo.z);
         const Real E = _axes.albedo(_tables, {wo.x, wo.y, mu});
         const Real lost = (Real(1) - E) / detail::max(E, detail::constant<Real>(1e-12));

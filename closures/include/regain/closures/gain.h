@@ -26,6 +26,7 @@
 #pragma once
 
 #include <regain/closures/closure.h>
+#include <regain/closures/count.h>
 
 #include <type_traits>
 

@@ -95,6 +95,7 @@ public:
     REGAIN_INLINE Color at(const Vec3<Real>& wo) const
     {
         if (!_bound) return Color(Real(1));
+        REGAIN_COUNTED(gains);
         const Real E = _axes.albedo(_tables, {wo.x, wo.y, detail::saturate(wo.z)});
         return detail::color(Channels(Real(1)) +
                              _F_ms * ((Real(1) - E) / detail::max(E, least_albedo())));

@@ -22,6 +22,7 @@
 #pragma once
 
 #include <regain/closures/closure.h>
+#include <regain/closures/count.h>
 #include <regain/closures/random_stream.h>
 #include <regain/closures/refraction.h>
 
@@ -110,6 +111,7 @@ public:
     REGAIN_HOST_DEVICE Mask move(const Real& z, const Real& area, const Real& u, const Real& first,
                                  const Mask& active)
     {
+        REGAIN_COUNTED(bounces);
         const Mask left = leaves_at_once(z, area, u);
         const Mask up = z > constant<Real>(horizon);
         if (!any<Real>(both<Real>(active, _drawn | !up))) return left;

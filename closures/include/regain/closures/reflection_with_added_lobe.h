@@ -8,6 +8,7 @@
 
 #pragma once
 
+#include <regain/closures/count.h>
 #include <regain/closures/sum.h>
 
 REGAIN_NAMESPACE_BEGIN
@@ -58,7 +59,9 @@ public:
                                     const typename Added::Prepared& added)
             : Mixture::Prepared(lobe, added, total(closure._F_ss) * (Real(1) - added.loss()),
                                 total(added.albedo().reflect))
-        {}
+        {
+            REGAIN_COUNTED(gains);
+        }
         REGAIN_HOST_DEVICE static Real total(const Color& c) { return c.x + c.y + c.z; }
     };
 

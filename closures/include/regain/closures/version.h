@@ -13,9 +13,14 @@
 
 // Every public name lives in regain::v0_1 and is written regain::name. The inline namespace changes
 // with each release that breaks the ABI, so a host and its plug-ins may link different ones.
+#ifdef REGAIN_COUNT  // see count.h
+#define REGAIN_ABI_NAMESPACE v0_1_counted
+#else
+#define REGAIN_ABI_NAMESPACE v0_1
+#endif
 #define REGAIN_NAMESPACE_BEGIN \
     namespace regain {         \
-    inline namespace v0_1 {
+    inline namespace REGAIN_ABI_NAMESPACE {
 #define REGAIN_NAMESPACE_END \
     }                        \
     }

@@ -175,6 +175,7 @@ public:
     template <template <class> class Distribution, class Real, class Visit>
     decltype(auto) with_closure_of(Real strength, const Visit& visit) const
     {
+        REGAIN_COUNTED(closures);
         const auto distribution_of = [this] {
             using D = Distribution<Real>;
             if constexpr (D::has_tail)

@@ -15,6 +15,7 @@
 
 #include <regain/closures/burley_diffuse.h>
 #include <regain/closures/conty_kulla_sheen.h>
+#include <regain/closures/count.h>
 #include <regain/closures/oren_nayar_diffuse.h>
 #include <regain/closures/translucent.h>
 #include <regain/closures/transparent.h>
@@ -82,6 +83,7 @@ public:
     template <class Real, class Visit>
     decltype(auto) with_closure(Real, const Visit& visit) const
     {
+        REGAIN_COUNTED(closures);
         using Color = Color3<Real>;
         if (const auto* s = std::get_if<BurleyDiffuseSurface>(&surface))
             return visit(BurleyDiffuse<Real>(Color(s->color), Real(s->roughness)));

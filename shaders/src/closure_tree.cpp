@@ -78,6 +78,28 @@ void ClosureTree::set_root(Node root)
     _root = root;
 }
 
+ClosureTree::NodeData& ClosureTree::lobe_node(Node node)
+{
+    const bool there = node >= 0 && node < static_cast<Node>(_nodes.size());
+    if (!there || made(node).kind != Kind::lobe)
+        throw std::invalid_argument("node " + std::to_string(node) + " of a tree of " +
+                                    std::to_string(_nodes.size()) + " nodes is no lobe");
+    return _nodes[static_cast<std::size_t>(node)];
+}
+
+void ClosureTree::set_material(Node node, const Material& material)
+{
+    _all[lobe_node(node).lobe].material = material;
+    for (Lobe& l : _lobes)
+        if (l.node == node) l.material = material;
+}
+
+void ClosureTree::leave_out(Node node)
+{
+    lobe_node(node).left_out = true;
+    if (_root >= 0) set_root(_root);
+}
+
 void ClosureTree::bind_tables(bool for_albedo)
 {
     // Of several, each is asked for its albedo at every point.
@@ -117,6 +139,7 @@ void ClosureTree::flatten(Node node, int depth, const ColorD& passing, bool& any
     switch (n.kind)
     {
         case Kind::lobe:
+            if (_nodes[static_cast<std::size_t>(node)].left_out) break;
             if (static_cast<int>(_lobes.size()) == most_lobes)
                 throw std::invalid_argument("a material has more than " +
                                             std::to_string(most_lobes) + " closures");

@@ -89,6 +89,12 @@ public:
         return _all[_nodes[static_cast<std::size_t>(node)].lobe].material;
     }
 
+    /// Another closure, or method of compensation, in the place of a lobe, wherever the node is;
+    /// its tables are not bound. Throws std::invalid_argument where the node is no lobe.
+    REGAIN_SHADERS_API void set_material(Node lobe, const Material&);
+    /// As if the lobe had a weight of 0. Throws as set_material.
+    REGAIN_SHADERS_API void leave_out(Node lobe);
+
     /// The share of the surface that is there, in [0, 1], clamped; NaN becomes 1. It weighs no
     /// closure.
     void set_presence(double presence) { _presence = detail::sanitised(presence, 0, 1, 1); }
@@ -163,6 +169,7 @@ private:
     {
         Made made;
         std::size_t lobe = 0;  // in _all
+        bool left_out = false;
     };
     struct Lobe
     {
@@ -194,6 +201,7 @@ private:
     }
 
     Node add_node(const NodeData&);
+    NodeData& lobe_node(Node);
     void flatten(Node, int depth, const ColorD& passing, bool& any);
 
     std::vector<Lobe> _all;

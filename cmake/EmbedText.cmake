@@ -14,18 +14,25 @@ if(CMAKE_SCRIPT_MODE_FILE)
     get_filename_component(name "${file}" NAME)
     file(READ "${file}" text)
     string(LENGTH "${text}" length)
-    # Compilers need not accept a longer string.
-    if(length GREATER 65000)
-      message(FATAL_ERROR "${file} is too long to embed as one string")
+    if(length LESS 65000)
+      string(APPEND body "    if (name == \"${name}\")\n        return R\"regain(${text})regain\";\n")
+      continue()
     endif()
-    string(APPEND body "    if (name == \"${name}\")\n        return R\"regain(${text})regain\";\n")
+    # Compilers need not accept a longer string.
+    file(READ "${file}" bytes HEX)
+    string(REGEX REPLACE "(..)" "0x\\1," bytes "${bytes}")
+    string(REGEX REPLACE "(0x0a,)" "\\1\n" bytes "${bytes}")
+    string(APPEND body
+      "    if (name == \"${name}\")\n    {\n        static constexpr char text[] = {\n${bytes}};\n"
+      "        return {text, sizeof text};\n    }\n")
   endforeach()
   file(WRITE "${OUTPUT}"
     "// Written by cmake/EmbedText.cmake.\n\n"
     "#include <regain/closures/version.h>\n\n#include <string_view>\n\n"
     "REGAIN_NAMESPACE_BEGIN\nnamespace embedded {\n\n"
     "std::string_view ${FUNCTION}(std::string_view name);\n"
-    "std::string_view ${FUNCTION}(std::string_view name)\n{\n${body}    return {};\n}\n\n"
+    "std::string_view ${FUNCTION}([[maybe_unused]] std::string_view name)\n{\n"
+    "${body}    return {};\n}\n\n"
     "}  // namespace embedded\nREGAIN_NAMESPACE_END\n")
   return()
 endif()

@@ -21,6 +21,7 @@ void add_query(CLI::App& app, int& exit_code);
 void add_bake(CLI::App& app, int& exit_code);
 void add_conform(CLI::App& app, int& exit_code);
 void add_cost(CLI::App& app, int& exit_code);
+void add_plan(CLI::App& app, int& exit_code);
 void add_presets(CLI::App& app, int& exit_code);
 
 struct RenderOptions;

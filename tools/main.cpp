@@ -24,6 +24,7 @@ int main(int argc, char** argv)
     add_bake(app, exit_code);
     add_conform(app, exit_code);
     add_cost(app, exit_code);
+    add_plan(app, exit_code);
     add_presets(app, exit_code);
 
     try

@@ -57,6 +57,19 @@ std::vector<shaders::Compensation> methods_named(const std::string& list)
     return methods;
 }
 
+std::vector<std::pair<std::string, std::string>> overrides_of(const std::vector<std::string>& all)
+{
+    std::vector<std::pair<std::string, std::string>> overrides;
+    for (const std::string& one : all)
+    {
+        const auto equals = one.find('=');
+        if (equals == one.npos || equals == 0 || equals + 1 == one.size())
+            refuse("--set", one, "takes INPUT=VALUE or NODE.INPUT=VALUE");
+        overrides.emplace_back(one.substr(0, equals), one.substr(equals + 1));
+    }
+    return overrides;
+}
+
 namespace {
 
 std::optional<std::string> text(const std::optional<std::string>& given) { return given; }

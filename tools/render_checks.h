@@ -15,6 +15,7 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace regain::tools {
@@ -34,6 +35,9 @@ void check_list(const char* option, const std::vector<double>& values,
 
 /// The methods of that list, divided by commas; none of an empty one.
 std::vector<shaders::Compensation> methods_named(const std::string& list);
+
+/// --set of documents: "INPUT=VALUE" as a pair.
+std::vector<std::pair<std::string, std::string>> overrides_of(const std::vector<std::string>&);
 
 /// What belongs to other materials than the one chosen is not passed over in silence.
 void check_belongings(const RenderOptions&);

@@ -4,6 +4,7 @@
 #include "render_documents.h"
 
 #include "errors.h"
+#include "plan_report.h"
 #include "render_checks.h"
 #include "texture_file.h"
 
@@ -81,19 +82,6 @@ Wedge read_wedge(const std::string& text)
     return wedge;
 }
 
-std::vector<std::pair<std::string, std::string>> read_settings(const std::vector<std::string>& all)
-{
-    std::vector<std::pair<std::string, std::string>> overrides;
-    for (const std::string& text : all)
-    {
-        const auto equals = text.find('=');
-        if (equals == text.npos || equals == 0 || equals + 1 == text.size())
-            refuse("--set", text, "takes INPUT=VALUE or NODE.INPUT=VALUE");
-        overrides.emplace_back(text.substr(0, equals), text.substr(equals + 1));
-    }
-    return overrides;
-}
-
 std::string shown(std::string name)
 {
     std::replace(name.begin(), name.end(), '_', ' ');
@@ -106,14 +94,24 @@ RenderDocuments::RenderDocuments(const RenderOptions& options, const shaders::Co
     : _given(options.documents),
       _method(options.method),
       _set(fmt::format("{}", fmt::join(options.settings, " "))),
-      _wedge(options.wedge)
+      _wedge(options.wedge),
+      _tolerance(options.tolerance)
 {
     check_count("--columns", options.columns, 1, 16);
+    shaders::MethodCosts costs;
+    if (_tolerance)
+    {
+        check_tolerance(*_tolerance);
+        if (!options.method.empty())
+            refuse("--tolerance", fmt::format("{:g}", *_tolerance),
+                   "does not go with --method, which it chooses");
+        costs = method_costs(options.costs);
+    }
     const TextureFiles textures(config);
     DocumentSettings settings(config);
     settings.textures = textures.loader();
     settings.folders = shaders::preset_folders();
-    settings.overrides = read_settings(options.settings);
+    settings.overrides = overrides_of(options.settings);
     Wedge wedge;
     if (!options.wedge.empty()) wedge = read_wedge(options.wedge);
 
@@ -148,7 +146,10 @@ RenderDocuments::RenderDocuments(const RenderOptions& options, const shaders::Co
                                 fmt::format("more than {} objects; --select NAME chooses materials",
                                             most_objects));
                         Surface s{prefix + label, d.surface(name, notes)};
-                        s.tree.tree.bind_tables();
+                        if (_tolerance)
+                            plan(s, costs);
+                        else
+                            s.tree.tree.bind_tables();
                         _is_transparent = _is_transparent || lets_through(s.tree);
                         row.push_back(std::move(s));
                     };
@@ -189,6 +190,20 @@ RenderDocuments::RenderDocuments(const RenderOptions& options, const shaders::Co
         if (told.second == objects) throw BadInput(told.first);
 }
 
+void RenderDocuments::plan(Surface& surface, const shaders::MethodCosts& costs)
+{
+    shaders::ScenePlan scene =
+        shaders::plan_scene({{surface.label, std::move(surface.tree)}}, {*_tolerance, &costs});
+    shaders::MaterialPlan& material = scene.materials.front();
+    if (_planned.empty())
+        for (const std::string& note : scene.notes) fmt::print(stderr, "regain: {}\n", note);
+    _planned.push_back(fmt::format("{}: {}", material.name, chosen_methods(material)));
+    if (material.is_known && !material.is_within)
+        fmt::print(stderr, "regain: {}: no choice keeps the tolerance; it may be off by {:.2g}\n",
+                   material.name, material.error);
+    surface.tree = std::move(material.surface);
+}
+
 // Rows are as even as they can be; those that are apart are no longer than they have to be.
 void RenderDocuments::arrange(Row all, bool apart, int columns)
 {
@@ -224,7 +239,13 @@ void RenderDocuments::describe(Metadata& metadata) const
     auto& e = metadata.entries;
     e.emplace_back("documents", fmt::format("{}", fmt::join(_given, ", ")));
     e.emplace_back("materials", fmt::format("{}", fmt::join(_names, ", ")));
-    e.emplace_back("method", _method.empty() ? "recommended" : _method);
+    if (_tolerance)
+    {
+        e.emplace_back("tolerance", fmt::format("{:g}", *_tolerance));
+        e.emplace_back("method", fmt::format("{}", fmt::join(_planned, "; ")));
+    }
+    else
+        e.emplace_back("method", _method.empty() ? "recommended" : _method);
     if (!_set.empty()) e.emplace_back("set", _set);
     if (!_wedge.empty()) e.emplace_back("wedge", _wedge);
 }

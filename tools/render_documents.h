@@ -13,9 +13,11 @@
 #include "render_options.h"
 
 #include <regain/shaders/color_config.h>
+#include <regain/shaders/method_costs.h>
 #include <regain/shaders/varying_tree.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -57,10 +59,13 @@ private:
     };
     using Row = std::vector<Surface>;
     void arrange(Row, bool apart, int columns);
+    void plan(Surface&, const shaders::MethodCosts&);
 
     std::vector<Row> _rows;
     std::vector<std::string> _given, _names;
     std::string _method, _set, _wedge;
+    std::optional<double> _tolerance;
+    std::vector<std::string> _planned;  // of each object what was chosen
     bool _is_transparent = false;
 };
 

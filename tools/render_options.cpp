@@ -69,6 +69,7 @@ Examples:
   regain render gold --select gold_satin --wedge roughness=0.01..1:8 --labels
   regain render gold --select gold_rough --wedge roughness=0.1..1:6 --labels --method none,tail
   regain render car.mtlx --set coat_weight=0 --difference car.exr -o uncoated.exr
+  regain render car.mtlx --tolerance 0.01 -o planned.exr
   regain render car.mtlx --turntable 90 -o turn.exr --resume
   regain render car.mtlx --watch --spp 8
   regain render car.mtlx --spp 4096 --resume
@@ -84,6 +85,13 @@ Examples:
         "--method", o.method,
         "a row for each of these compensation methods, divided by commas, instead of none above "
         "the recommended one");
+    command.add_option(
+        "--tolerance", o.tolerance,
+        "of documents: the cheapest methods whose predicted error of the "
+        "directional albedo is within that, 0 (the reference) to 1; see regain plan");
+    command.add_option("--costs", o.costs,
+                       "what --tolerance goes by, a file of `regain cost --planner-data` [compiled "
+                       "in]");
     declare_materials(o, command);
     command.add_option("DOCUMENT", o.documents,
                        "MaterialX documents, or names of presets: one object for each of their "

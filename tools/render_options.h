@@ -25,6 +25,8 @@ struct RenderOptions
 {
     std::string output = "regain.exr";
     std::string method;
+    std::optional<double> tolerance;
+    std::string costs;
     std::string material = "metal";
 
     std::optional<std::string> metal;

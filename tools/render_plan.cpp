@@ -183,8 +183,13 @@ RenderPlan make_plan(const RenderOptions& options)
     }
     else if (!options.selected.empty())
         refuse("--select", options.selected.front(), "goes with documents alone");
+    else if (options.tolerance)
+        refuse("--tolerance", fmt::format("{}", *options.tolerance), "goes with documents alone");
     else if (!options.wedge.empty())
         refuse("--wedge", options.wedge, "goes with documents alone; of others --alpha is a list");
+
+    if (!options.costs.empty() && !options.tolerance)
+        refuse("--costs", options.costs, "goes with --tolerance alone");
 
     RenderPlan plan{options.output,
                     fs::path(options.output).replace_extension(".png"),

@@ -10,8 +10,8 @@ REGAIN_NAMESPACE_BEGIN
 namespace shaders::planning {
 namespace {
 
-// Of the difference between the numbers that one is read between, what the curve may bulge. By
-// bench/plan_error.
+// Of the difference between the numbers that one is read between, what the curve may bulge in their
+// middle. By bench/plan_error.
 constexpr double bulge = 0.25;
 
 // What plastic's error is of its coat's: the diffuse base gives back half of what the coat lets by.
@@ -67,6 +67,9 @@ double between(const std::vector<double>& values, const Place& p)
     return values[p.low] + (values[p.high] - values[p.low]) * p.fraction;
 }
 
+// 0 at both ends, 1 in the middle.
+double middle(const Place& p) { return 4 * p.fraction * (1 - p.fraction); }
+
 // Below the narrowest width that was measured. The light that is lost at mu 0.05, the least cosine
 // that counts, is that of slopes beyond it, whose share goes with a power of the width that the
 // tail says; 6 is an upper bound for all distributions, by quadrature.
@@ -82,11 +85,14 @@ double of_narrower(const MethodCost& cost, double alpha)
 double error_at(const MethodCost& cost, double alpha, double x)
 {
     const Place a = place(cost.alpha, alpha), b = place(cost.axis, x);
-    const double corners[] = {cost.error[a.low][b.low], cost.error[a.low][b.high],
-                              cost.error[a.high][b.low], cost.error[a.high][b.high]};
-    const auto [least, most] = std::minmax_element(std::begin(corners), std::end(corners));
-    const double low = between(cost.error[a.low], b), high = between(cost.error[a.high], b);
-    const double value = low + (high - low) * a.fraction + bulge * (*most - *least);
+    const auto along = [&](const std::vector<double>& row) { return between(row, b); };
+    const double low = along(cost.error[a.low]), high = along(cost.error[a.high]);
+    const auto at = [&](std::size_t i) {
+        return cost.error[a.low][i] + (cost.error[a.high][i] - cost.error[a.low][i]) * a.fraction;
+    };
+    const double value =
+        low + (high - low) * a.fraction +
+        bulge * (middle(a) * std::abs(high - low) + middle(b) * std::abs(at(b.high) - at(b.low)));
     // Noise makes the largest of several numbers larger, so it is in there already in part.
     return std::hypot(value, 2 * cost.noise) * of_narrower(cost, alpha);
 }

@@ -70,13 +70,13 @@ double between(const std::vector<double>& values, const Place& p)
 // 0 at both ends, 1 in the middle.
 double middle(const Place& p) { return 4 * p.fraction * (1 - p.fraction); }
 
-// Below the narrowest width that was measured. The light that is lost at mu 0.05, the least cosine
-// that counts, is that of slopes beyond it, whose share goes with a power of the width that the
-// tail says; 6 is an upper bound for all distributions, by quadrature.
+// Of widths below the least cosine that counts, 0.05, and below all that were measured. The light
+// that is lost there is that of slopes beyond that cosine, whose share goes with a power of the
+// width that the tail says; 6 is an upper bound for all distributions, by quadrature.
 double of_narrower(const MethodCost& cost, double alpha)
 {
-    const double x = alpha / cost.alpha.front();
-    if (x >= 1) return 1;
+    const double x = alpha / 0.05;
+    if (x >= 1 || alpha >= cost.alpha.front()) return 1;
     const double power =
         has_gamma(cost.distribution) ? std::clamp(2 * (cost.gamma - 1), 0.0, 2.0) : 2;
     return std::min(1.0, 6 * std::pow(x, power));

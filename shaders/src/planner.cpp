@@ -225,7 +225,6 @@ private:
             lobe.method = name(m.method);
             lobe.why = why_unknown(_costs, *r.facets());
             _plan.is_known = _plan.is_within = false;
-            _plan.notes.push_back(lobe.name + ": " + lobe.why);
         }
         _plan.lobes.push_back(std::move(lobe));
     }

@@ -3,11 +3,10 @@
 
 // Plans by a price list that is made up, so that what has to be chosen is known.
 
+#include "../support/price_list.h"
 #include "documents.h"
 
 #include <regain/shaders/planner.h>
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,63 +16,6 @@ using namespace regain::shaders;
 using namespace regain::tests;
 
 namespace {
-
-// An entry whose error rises with the square of alpha, and with the axis where that is F0.
-struct Price
-{
-    const char* method;
-    double error, time;
-};
-
-std::string entry(const std::string& kind, const std::string& law, const char* axis,
-                  const std::vector<double>& places, const Price& p)
-{
-    const std::vector<double> alphas{0.05, 0.1, 0.2, 0.5, 1};
-    std::string error, times;
-    for (const double a : alphas)
-    {
-        std::string row;
-        for (const double x : places)
-            row += fmt::format("{}{}", row.empty() ? "" : ",",
-                               p.error * a * a * (axis[0] == 'F' ? x : 1.0));
-        error += fmt::format("{}[{}]", error.empty() ? "" : ",", row);
-        times += fmt::format("{}{}", times.empty() ? "" : ",", p.time);
-    }
-    return fmt::format(
-        R"({{"class":"{}","distribution":{},"method":"{}","alpha":[{}],"{}":[{}],"error":[{}],)"
-        R"("noise":1e-5,"eval":[{}],"sample":[{}],"table_bytes":0}})",
-        kind, law, p.method, fmt::join(alphas, ","), axis, fmt::join(places, ","), error, times,
-        times);
-}
-
-std::string price_list()
-{
-    const Price metals[] = {{"none", 0.6, 1},          {"turquin", 0.06, 1.3},
-                            {"directional", 0.004, 2}, {"balanced", 0.01, 1.9},
-                            {"tail", 0.004, 4},        {"walk", 0.0002, 6}};
-    const Price glasses[] = {
-        {"none", 0.8, 1.5}, {"turquin", 0.4, 2}, {"tail", 0.02, 5}, {"walk", 0, 8}};
-    const Price coats[] = {{"none", 0.02, 1.2}, {"turquin", 0.004, 1.6}, {"tail", 0.001, 4}};
-    std::string all;
-    const auto add = [&](const std::string& one) { all += (all.empty() ? "" : ",\n") + one; };
-    for (const char* law :
-         {R"("ggx")", R"("beckmann")", R"("gtr","gamma":1.5)", R"("gtr","gamma":3)"})
-    {
-        for (const Price& p : metals)
-        {
-            add(entry("metal", law, "F0", {0.04, 0.5, 1}, p));
-            // A colour makes all but single scattering twice as far off.
-            Price of_colour = p;
-            if (p.error < 0.5) of_colour.error *= 2;
-            add(entry("coloured-metal", law, "material", {0, 1}, of_colour));
-        }
-        for (const Price& p : glasses)
-            for (const char* kind : {"glass-outside", "glass-inside"})
-                add(entry(kind, law, "eta", {1.1, 1.5, 2}, p));
-        for (const Price& p : coats) add(entry("plastic", law, "eta", {1.1, 1.5, 2}, p));
-    }
-    return fmt::format(R"({{"schema":1,"transmission_shadowing":"beta","entries":[{}]}})", all);
-}
 
 const MethodCosts& prices()
 {

@@ -15,6 +15,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <set>
 
@@ -42,6 +43,8 @@ std::vector<NamedMaterial> read_materials(const Arguments& a)
 
     std::vector<NamedMaterial> materials;
     std::set<std::string> said, found;
+    // Overrides that materials have no input for, by their message.
+    std::map<std::string, std::size_t> unused;
     for (const std::string& given : a.documents)
     {
         std::vector<DocumentNote> notes;
@@ -54,7 +57,9 @@ std::vector<NamedMaterial> read_materials(const Arguments& a)
                 materials.push_back({name, document.surface(name, notes)});
         }
         for (const DocumentNote& note : notes)
-            if (said.insert(note.message()).second)
+            if (!note.unused.empty())
+                ++unused[note.message()];
+            else if (said.insert(note.message()).second)
                 fmt::print(stderr, "regain: {}\n", note.message());
     }
     for (const std::string& wanted : a.selected)
@@ -63,6 +68,9 @@ std::vector<NamedMaterial> read_materials(const Arguments& a)
                    fmt::format("no document has a material of that name; there are {}",
                                fmt::join(found, ", ")));
     if (materials.empty()) throw BadInput("the documents have no material");
+    // One that some material has is meant for that.
+    for (const auto& [message, count] : unused)
+        if (count == materials.size()) throw BadInput(message);
     return materials;
 }
 

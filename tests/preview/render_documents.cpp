@@ -4,6 +4,7 @@
 // `regain render` with documents and presets: what is shown, chosen, changed and compared, and what
 // is refused.
 
+#include "../support/price_list.h"
 #include "render_fixture.h"
 
 #include <unistd.h>
@@ -316,6 +317,23 @@ TEST_F(RenderDocuments, EveryDocumentOfTheFolderIsRendered)
     EXPECT_GE(documents, 30);
 }
 
+TEST_F(RenderDocuments, AToleranceChoosesTheMethodsAndTheFileSaysWhich)
+{
+    const std::string two = document(),
+                      costs = temporary.write("costs.json", tests::price_list()).string();
+    const auto planned = [&](const char* name, const char* tolerance) {
+        EXPECT_EQ(quick(name, {two, "--costs", costs, "--tolerance", tolerance}), kDone) << err;
+        return attribute(file(name), "regain:method");
+    };
+    EXPECT_EQ(planned("one.exr", "1"), "Bright Metal: metal none; Dull: diffuse none");
+    EXPECT_EQ(planned("walk.exr", "0"), "Bright Metal: metal walk; Dull: diffuse none");
+    EXPECT_EQ(attribute(file("walk.exr"), "regain:tolerance"), "0");
+    // The same picture as by the method's name.
+    EXPECT_EQ(quick("none.exr", {two, "--method", "none"}), kDone) << err;
+    EXPECT_EQ(columns(file("one.exr")), columns(file("none.exr")));
+    EXPECT_EQ(attribute(file("none.exr"), "regain:tolerance"), "");
+}
+
 TEST_F(RenderDocuments, WhatIsWrongIsSaidAndNothingIsWritten)
 {
     const auto refused = [&](const Arguments& arguments, const std::string& message) {
@@ -349,6 +367,11 @@ TEST_F(RenderDocuments, WhatIsWrongIsSaidAndNothingIsWritten)
     refused({document(), "--scale", "0"}, "--scale");
     refused({document(), "--turntable", "1"}, "--turntable 1: takes 2 to 9999");
     refused({document(), "--turn", "inf"}, "--turn");
+    refused({document(), "--tolerance", "2"}, "--tolerance 2: takes numbers from 0 to 1");
+    refused({document(), "--tolerance", "0.1", "--method", "walk"}, "does not go with --method");
+    refused({document(), "--tolerance", "0.1", "--costs", "no/such.json"}, "cannot be read");
+    refused({document(), "--costs", "no/such.json"}, "goes with --tolerance alone");
+    refused({"--tolerance", "0.1"}, "goes with documents alone");
     refused({"--watch"}, "--watch: goes with documents alone");
 }
 

@@ -43,8 +43,8 @@ std::vector<NamedMaterial> read_materials(const Arguments& a)
 
     std::vector<NamedMaterial> materials;
     std::set<std::string> said, found;
-    // Overrides that materials have no input for, by their message.
-    std::map<std::string, std::size_t> unused;
+    // Overrides by their name: what was said of them, and of how many materials.
+    std::map<std::string, std::pair<std::string, std::size_t>> unused;
     for (const std::string& given : a.documents)
     {
         std::vector<DocumentNote> notes;
@@ -58,7 +58,7 @@ std::vector<NamedMaterial> read_materials(const Arguments& a)
         }
         for (const DocumentNote& note : notes)
             if (!note.unused.empty())
-                ++unused[note.message()];
+                ++unused[note.unused].second, unused[note.unused].first = note.message();
             else if (said.insert(note.message()).second)
                 fmt::print(stderr, "regain: {}\n", note.message());
     }
@@ -69,8 +69,8 @@ std::vector<NamedMaterial> read_materials(const Arguments& a)
                                fmt::join(found, ", ")));
     if (materials.empty()) throw BadInput("the documents have no material");
     // One that some material has is meant for that.
-    for (const auto& [message, count] : unused)
-        if (count == materials.size()) throw BadInput(message);
+    for (const auto& [name, told] : unused)
+        if (told.second == materials.size()) throw BadInput(told.first);
     return materials;
 }
 

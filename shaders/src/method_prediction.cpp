@@ -256,6 +256,8 @@ std::optional<Prediction> predicted(const MethodCosts& costs, const MicrofacetMa
                                     const Compensation& method)
 {
     auto p = isotropic_prediction(costs, m, method);
+    // That needs no measurement.
+    if (!p && is_mirror(m) && name(method) == "none") p = Prediction{ColorD(0.0), 1, 1};
     if (!p) return p;
     const auto* walk = std::get_if<RandomWalk>(&method);
     // The reference, whose error in the file is the noise of the measurement.
@@ -273,7 +275,7 @@ std::vector<Compensation> predictable_methods(const MethodCosts& costs, const Mi
         const Compensation method = *compensation_named(n);
         // An effect of its own, kept for comparison.
         if (std::holds_alternative<BurleySheen>(method)) continue;
-        if (isotropic_prediction(costs, m, method)) all.push_back(method);
+        if (predicted(costs, m, method)) all.push_back(method);
     }
     return all;
 }

@@ -144,6 +144,10 @@ TEST(Plans, what_was_not_measured_is_kept_and_said)
         EXPECT_FALSE(plan.lobes[0].error) << why;
         EXPECT_TRUE(says(plan.lobes[0].why, why)) << plan.lobes[0].why;
     }
+    // But what is flat loses nothing.
+    sheet.alpha_x = sheet.alpha_y = 0;
+    EXPECT_EQ(method_of(planned(sheet, 0)), "none");
+    EXPECT_TRUE(planned(sheet, 0).is_known && planned(sheet, 0).is_within);
     // Without any numbers everything is.
     const MethodCosts nothing;
     VaryingTree surface;

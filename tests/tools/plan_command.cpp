@@ -94,6 +94,7 @@ TEST_F(PlanCommand, bad_input_is_named_with_what_is_accepted)
         {"no-such-preset", "no-such-preset"},
         {"gold --select copper_rough", "gold_rough"},
         {"gold --set roughness", "INPUT=VALUE"},
+        {"gold --set colour=1", "'colour' is no input"},
         {"gold --costs FOLDER/none.json", "cannot be read"},
         {"gold --costs FOLDER/stdin", "cannot be read"},
     };

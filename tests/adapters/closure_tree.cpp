@@ -125,6 +125,38 @@ TEST(ClosureTree, tables_are_bound_for_what_is_left_in)
     EXPECT_NE(refusal([&] { tree.bind_tables(); }), "");
 }
 
+TEST(ClosureTree, closures_can_be_exchanged_and_left_out_later)
+{
+    ClosureTree tree;
+    MicrofacetMaterial metal;
+    const auto a = tree.lobe(metal), b = tree.lobe(diffuse());
+    const auto root = tree.layer(a, tree.mix(a, b, 0.5));
+    tree.set_root(root);
+    ASSERT_EQ(tree.lobes(), 3);
+    metal.method = Method::none;
+    tree.set_material(a, metal);
+    // Wherever it is, and where it was asked for.
+    for (const int k : {0, 1})
+        EXPECT_EQ(name(std::get<MicrofacetMaterial>(tree.material(k)).method), "none");
+    EXPECT_EQ(name(std::get<MicrofacetMaterial>(tree.material_of(a)).method), "none");
+
+    tree.leave_out(a);
+    ASSERT_EQ(tree.lobes(), 1);
+    EXPECT_EQ(tree.node_of(0), b);
+    std::vector<Color> w;
+    weights(tree, {Color(1.0)}, w);
+    EXPECT_EQ(w[0], Color(0.5));
+    EXPECT_EQ(tree.root(), root);
+    tree.leave_out(b);
+    EXPECT_EQ(tree.lobes(), 0);
+    for (const auto node : {root, -1, 99})
+    {
+        EXPECT_NE(refusal([&] { tree.leave_out(node); }).find("is no lobe"), std::string::npos);
+        EXPECT_NE(refusal([&] { tree.set_material(node, metal); }).find("is no lobe"),
+                  std::string::npos);
+    }
+}
+
 TEST(ClosureTree, limits_are_told)
 {
     ClosureTree tree;

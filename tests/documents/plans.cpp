@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <sstream>
 
 using namespace regain;
 using namespace regain::shaders;
@@ -287,6 +289,31 @@ TEST(Plans, a_scene_counts_each_table_once)
     std::size_t bytes = 0;
     for (const PlannedTable& t : plan.tables) bytes += t.bytes;
     EXPECT_EQ(plan.loaded_bytes() + plan.compiled_in_bytes(), bytes);
+}
+
+TEST(Plans, a_renderer_asks_as_the_page_about_them_shows)
+{
+    VaryingTree car, floor;
+    car.tree = ClosureTree(metal(0.5));
+    floor.tree = ClosureTree(PlainMaterial{OrenNayarSurface{}});
+    std::vector<int> used;
+    const auto use = [&](const VaryingTree& surface) { used.push_back(surface.lobes()); };
+    // clang-format off
+const shaders::ScenePlan plan = shaders::plan_scene({{"car", car}, {"floor", floor}}, {0.01});
+for (const shaders::MaterialPlan& m : plan.materials) use(m.surface);  // tables are bound
+    // clang-format on
+    EXPECT_EQ(used, std::vector<int>(2, 1));
+
+    const auto text_of = [](const char* file) {
+        std::ostringstream text;
+        text << std::ifstream(file).rdbuf();
+        return text.str();
+    };
+    const std::string page = text_of(REGAIN_DOCS "/planner.md"), source = text_of(REGAIN_PLANS);
+    const std::string fence = "```cpp\n";
+    const auto from = page.find(fence) + fence.size(), to = page.find("```", from);
+    ASSERT_NE(to, page.npos);
+    EXPECT_NE(source.find(page.substr(from, to - from)), source.npos);
 }
 
 TEST(Plans, wrong_numbers_are_refused)

@@ -34,6 +34,7 @@ std::vector<Law> measured_laws(const MethodCosts& costs, const MicrofacetMateria
     if (!has_gamma(m.distribution)) return {{m.distribution, 2, true}};
     std::vector<Law> all;
     for (const double g : costs.gammas(m.distribution)) all.push_back({m.distribution, g, true});
+    if (all.empty()) return {};
     if (m.distribution == DistributionKind::gtr) all.push_back({DistributionKind::ggx, 2, false});
     std::sort(all.begin(), all.end(), [](const Law& a, const Law& b) { return a.gamma < b.gamma; });
     const auto above = std::lower_bound(all.begin(), all.end(), m.gamma,

@@ -66,7 +66,9 @@ std::string why_unknown(const MethodCosts& costs, const MicrofacetMaterial& m)
     if (has_gamma(m.distribution))
     {
         const auto gammas = costs.gammas(m.distribution);
-        if (!gammas.empty() && m.gamma < gammas.front())
+        if (gammas.empty())
+            return "no " + std::string(name(m.distribution)) + " was measured" + kept;
+        if (m.gamma < gammas.front())
             return "no tail of a gamma below " + digits(gammas.front()) + " was measured" + kept;
     }
     if (m.is_interface()) return "no index so near 1 was measured" + kept;

@@ -5,6 +5,7 @@
 
 #include "closures_by_distribution.h"
 #include "figures/measures.h"
+#include "measured_albedo.h"
 #include "plan_report.h"
 #include "random_numbers.h"
 
@@ -32,41 +33,75 @@ struct Seen
     }
 };
 
-std::unique_ptr<AnyClosure> closure_of(MicrofacetMaterial m)
+struct Closure
+{
+    std::unique_ptr<AnyClosure> closure;
+    ClosureSpec spec;  // what integrating it needs to know
+};
+
+Closure closure_of(MicrofacetMaterial m)
 {
     m.bind_tables();
-    const ClosureSpec spec;
+    ClosureSpec spec;
+    spec.alpha_x = m.alpha_x;
+    spec.alpha_y = m.alpha_y;
+    spec.method = m.method;
+    if (const auto* i = std::get_if<InterfaceSurface>(&m.surface))
+    {
+        spec.lobe = Lobe::dielectric;
+        spec.interface = *i;
+    }
     switch (m.distribution)
     {
-        case DistributionKind::beckmann: return make_beckmann_closure(m, spec);
-        case DistributionKind::gtr: return make_gtr_closure(m, spec);
-        case DistributionKind::std: return make_std_closure(m, spec);
+        case DistributionKind::beckmann: return {make_beckmann_closure(m, spec), spec};
+        case DistributionKind::gtr: return {make_gtr_closure(m, spec), spec};
+        case DistributionKind::std: return {make_std_closure(m, spec), spec};
         case DistributionKind::ggx: break;
     }
-    return make_ggx_closure(m, spec);
+    return {make_ggx_closure(m, spec), spec};
 }
 
-Seen seen_along(AnyClosure& closure, const Imath::V3d& wo, std::uint64_t n, std::uint64_t seed)
+// Mean and noise of one side.
+class Mean
 {
-    RandomNumbers random(seed);
-    const double a = random.next<double>(), b = random.next<double>(), c = random.next<double>();
-    closure.prepare(wo);
-    Seen seen;
-    double sum = 0, squares = 0;
-    for (std::uint64_t i = 0; i < n; ++i)
+public:
+    void add(const ColorD& weight)
     {
-        const Sample<double> s = closure.sample(figures::lattice_point(i, {a, b, c}));
-        if (!s.valid) continue;
-        (s.transmitted ? seen.transmit : seen.reflect) += s.weight;
-        const double w = std::max({s.weight.x, s.weight.y, s.weight.z});
-        sum += w;
-        squares += w * w;
+        const double w = std::max({weight.x, weight.y, weight.z});
+        _sum += weight;
+        _largest += w;
+        _squares += w * w;
     }
-    const double count = static_cast<double>(n), mean = sum / count;
-    seen.reflect /= count;
-    seen.transmit /= count;
-    seen.noise = std::sqrt(std::max(0.0, squares / count - mean * mean) / count);
-    return seen;
+    ColorD of(double n) const { return _sum / n; }
+    double noise(double n) const
+    {
+        const double mean = _largest / n;
+        return std::sqrt(std::max(0.0, _squares / n - mean * mean) / n);
+    }
+
+private:
+    ColorD _sum{0.0};
+    double _largest = 0, _squares = 0;
+};
+
+Seen seen_along(Closure& c, const Imath::V3d& wo, std::uint64_t samples, std::uint64_t seed)
+{
+    if (default_albedo_method(c.spec) == AlbedoMethod::quadrature)
+    {
+        const MeasuredAlbedo a = measured_albedo(*c.closure, c.spec, wo, {});
+        return {a.reflect, a.transmit, a.error.value_or(0)};
+    }
+    RandomNumbers random(seed);
+    const double x = random.next<double>(), y = random.next<double>(), z = random.next<double>();
+    c.closure->prepare(wo);
+    Mean reflect, transmit;
+    for (std::uint64_t i = 0; i < samples; ++i)
+    {
+        const Sample<double> s = c.closure->sample(figures::lattice_point(i, {x, y, z}));
+        if (s.valid) (s.transmitted ? transmit : reflect).add(s.weight);
+    }
+    const double n = static_cast<double>(samples);
+    return {reflect.of(n), transmit.of(n), std::max(reflect.noise(n), transmit.noise(n))};
 }
 
 // The walk's own, of the same surface.
@@ -166,12 +201,12 @@ public:
         return surface;
     }
 
-    Seen seen(std::vector<std::unique_ptr<AnyClosure>>& closures, const Imath::V3d& wo,
-              std::uint64_t n, std::uint64_t seed) const
+    Seen seen(std::vector<Closure>& closures, const Imath::V3d& wo, std::uint64_t n,
+              std::uint64_t seed) const
     {
-        Seen s = seen_along(*closures[0], wo, n, seed);
+        Seen s = seen_along(closures[0], wo, n, seed);
         if (closures.size() > 1)
-            s = s * _amount + seen_along(*closures[1], wo, n, seed + 1) * (1 - _amount);
+            s = s * _amount + seen_along(closures[1], wo, n, seed + 1) * (1 - _amount);
         // Of a diffuse base what it gets comes back.
         if (_base >= 0) s.reflect += (ColorD(1.0) - s.reflect) * _base, s.noise *= 1 - _base;
         return s;
@@ -191,7 +226,7 @@ private:
 void measure(CheckedPlan& check, const Subject& subject, const MaterialPlan& plan, Drawer& draw,
              std::uint64_t n)
 {
-    std::vector<std::unique_ptr<AnyClosure>> planned, walks;
+    std::vector<Closure> planned, walks;
     for (const PlannedLobe& lobe : plan.lobes)
         if (const auto* m =
                 std::get_if<MicrofacetMaterial>(&plan.surface.tree.material_of(lobe.node)))

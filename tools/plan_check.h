@@ -31,8 +31,8 @@ struct CheckedPlan
 struct PlanCheck
 {
     int materials = 200;
-    std::uint64_t samples =
-        65536;  ///< of each direction and closure; the walk takes four times that
+    /// Of each direction, for what is no integral; the walk takes four times that.
+    std::uint64_t samples = 65536;
     std::uint32_t seed = 1;
 };
 

@@ -107,8 +107,29 @@ double worst_at(const MethodCost& cost, double alpha)
 
 double wide_alpha(const MicrofacetMaterial& m) { return std::max(m.alpha_x, m.alpha_y); }
 
-// What tables leave of two widths: the white furnaces of docs/methods.md. Single scattering loses
-// no more than that of the wider one, and the walk knows all.
+// Directions along and across the grooves see different widths, and all between them.
+std::vector<double> seen_alphas(const MethodCost& cost, const MicrofacetMaterial& m)
+{
+    const double narrow = std::min(m.alpha_x, m.alpha_y), wide = wide_alpha(m);
+    std::vector<double> all{wide};
+    if (narrow == wide) return all;
+    all.push_back(narrow);
+    for (const double a : cost.alpha)
+        if (a > narrow && a < wide) all.push_back(a);
+    return all;
+}
+
+// The worst of them.
+double error_at(const MethodCost& cost, const MicrofacetMaterial& m, double x)
+{
+    double worst = 0;
+    for (const double alpha : seen_alphas(cost, m))
+        worst = std::max(worst, error_at(cost, alpha, x));
+    return worst;
+}
+
+// What tables leave of two widths besides: the white furnaces of docs/methods.md. Single scattering
+// needs none, and the walk knows all.
 double of_two_widths(const MicrofacetMaterial& m, const Compensation& method, double lost)
 {
     if (m.alpha_x == m.alpha_y || name(method) == "none" ||
@@ -152,7 +173,7 @@ private:
                 double more = 0;
                 if (coloured) more = of_colour(law, cost);
                 ColorD e;
-                for (int c = 0; c < 3; ++c) e[c] = error_at(cost, wide_alpha(_m), F0[c]) + more;
+                for (int c = 0; c < 3; ++c) e[c] = error_at(cost, _m, F0[c]) + more;
                 return e;
             });
         });
@@ -171,7 +192,7 @@ private:
         if (s.eta < 1) return std::nullopt;
         return over_laws([&](const Law& law) {
             return add(CostClass::plastic, law, [&](const MethodCost& cost) {
-                return s.reflection_tint * (error_at(cost, wide_alpha(_m), s.eta) / coat_share);
+                return s.reflection_tint * (error_at(cost, _m, s.eta) / coat_share);
             });
         });
     }
@@ -182,9 +203,7 @@ private:
         ColorD tint;
         for (int c = 0; c < 3; ++c)
             tint[c] = std::max(s.reflection_tint[c], s.transmission_tint[c]);
-        const auto of = [&](const MethodCost& cost) {
-            return tint * error_at(cost, wide_alpha(_m), eta);
-        };
+        const auto of = [&](const MethodCost& cost) { return tint * error_at(cost, _m, eta); };
         return over_laws([&](const Law& law) {
             const MethodCost* cost = find(CostClass::glass_inside, law);
             if (cost && eta < cost->axis.front()) return false;

@@ -261,7 +261,7 @@ TEST(Plans, numbers_that_vary_are_planned_over_their_range)
     }
 }
 
-TEST(Plans, two_widths_count_as_the_wider)
+TEST(Plans, two_widths_count_as_the_worse)
 {
     MicrofacetMaterial m = metal(1);
     m.alpha_y = 0.05;

@@ -32,7 +32,7 @@ struct RenderJob
     int threads = 0;                          ///< 0: one per core, which is also the most
     const std::atomic<bool>* stop = nullptr;  ///< set by anyone to end early
     Progress* progress = nullptr;             ///< advanced by pixel samples
-    Part part;                                ///< of the tiles; the rest of the films is left alone
+    Part part = {};                           ///< of the tiles; the rest of the films is left alone
 };
 
 /// What a job is divided into.

@@ -51,8 +51,10 @@ std::vector<Kind<Real>> all_kinds()
     std::vector<Kind<Real>> all;
     add_ggx(all);
     add_beckmann(all);
+#ifndef REGAIN_HARD_CASES_WITHOUT_TAILS
     add_gtr(all);
     add_std(all);
+#endif
     add_others<Real>(all);
     if constexpr (sizeof(Real) == 4) add_others<Batch>(all);
     if (vectors_are_promised) return all;

@@ -38,12 +38,14 @@ cost::RunOptions run_options(const Options& o)
     };
     cost::RunOptions run;
     run.quick = o.quick;
-    run.samples = o.quick ? 16384 : 65536;
+    run.samples = o.quick ? 8192 : 32768;
     run.seconds_per_picture = o.quick ? 0.5 : 4;
     if (o.samples != 0)
     {
         check("--samples", static_cast<double>(o.samples), 64, 1e9);
-        run.samples = static_cast<std::uint64_t>(o.samples);
+        // Whole lattices.
+        run.samples = (static_cast<std::uint64_t>(o.samples) + cost::lattices - 1) /
+                      cost::lattices * cost::lattices;
     }
     if (o.seconds != -1)
     {
@@ -150,7 +152,7 @@ Examples:
     command->add_flag("--quick", o.quick, "three widths, one eta, fewer samples");
     command->add_option("--samples", o.samples,
                         "for each direction, 64 to 1e9; the walk takes four times as many "
-                        "[65536; quick: 16384]");
+                        "[32768; quick: 8192]");
     command->add_option("--seconds-per-picture", o.seconds,
                         "of the pictures in equal time, 0 for none [4; quick: 0.5]");
     command->add_option("--seed", o.seed, "of the random numbers")->capture_default_str();

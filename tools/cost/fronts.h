@@ -40,8 +40,7 @@ struct Front
     std::vector<Point> points;
     std::vector<std::size_t> front;
     /// Smaller errors drown in the noise of this run: twice what one walk is off another, or, where
-    /// none was asked for, three sigma. Sigma is that of independent samples, which a lattice
-    /// betters.
+    /// none was asked for, three sigma.
     double floor = 0;
     std::string sentence;
 };

@@ -16,11 +16,6 @@ using figures::histogram_bins;
 // Samples in one call: those of a block stay in the second cache.
 constexpr std::uint64_t block = 2048;
 
-struct Sums
-{
-    std::array<std::array<double, 3>, 2> total{}, squares{};  // reflected, transmitted
-};
-
 // Calls visit with the samples that are valid, block by block.
 template <class Visit>
 void for_each_sample(const Subject& subject, double mu, std::uint64_t n, std::uint64_t seed,
@@ -52,36 +47,63 @@ void for_each_sample(const Subject& subject, double mu, std::uint64_t n, std::ui
     }
 }
 
-Seen seen_along(const Subject& subject, double mu, std::uint64_t samples, std::uint64_t seed,
-                const std::function<bool()>& stopped)
+// Of one lattice.
+struct Means
 {
-    Sums sums;
+    std::array<std::array<double, 3>, 2> mean{}, squares{};  // reflected, transmitted
+};
+
+Means means_along(const Subject& subject, double mu, std::uint64_t samples, std::uint64_t seed,
+                  const std::function<bool()>& stopped)
+{
+    Means m;
     for_each_sample(subject, mu, samples, seed, stopped, [&](const Sample<float>& s) {
         const std::size_t side = s.transmitted ? 1 : 0;
         for (std::size_t c = 0; c < 3; ++c)
         {
             const double w = double(s.weight[static_cast<int>(c)]);
-            sums.total[side][c] += w;
-            sums.squares[side][c] += w * w;
+            m.mean[side][c] += w;
+            m.squares[side][c] += w * w;
         }
     });
+    for (auto* sums : {&m.mean, &m.squares})
+        for (auto& side : *sums)
+            for (double& x : side) x /= static_cast<double>(samples);
+    return m;
+}
+
+Seen seen_along(const Subject& subject, double mu, std::uint64_t samples, std::uint64_t seed,
+                const std::function<bool()>& stopped)
+{
+    constexpr double n = lattices;
+    std::array<std::array<double, 3>, 2> sum{}, sum_of_squares{}, of_weight{};
+    for (std::uint64_t k = 0; k < lattices; ++k)
+    {
+        const Means m = means_along(subject, mu, samples / lattices, seed + k, stopped);
+        for (std::size_t side = 0; side < 2; ++side)
+            for (std::size_t c = 0; c < 3; ++c)
+            {
+                sum[side][c] += m.mean[side][c];
+                sum_of_squares[side][c] += m.mean[side][c] * m.mean[side][c];
+                of_weight[side][c] += m.squares[side][c] / n;
+            }
+    }
     Seen seen;
-    const double n = static_cast<double>(samples);
-    const auto variance = [n](double squares, double mean) {
-        return std::max(0.0, squares / n - mean * mean);
-    };
     for (std::size_t c = 0; c < 3; ++c)
     {
-        seen.reflect[c] = sums.total[0][c] / n;
-        seen.transmit[c] = sums.total[1][c] / n;
+        seen.reflect[c] = sum[0][c] / n;
+        seen.transmit[c] = sum[1][c] / n;
         const double mean = seen.reflect[c] + seen.transmit[c];
-        const double of_weight = variance(sums.squares[0][c] + sums.squares[1][c], mean);
-        seen.variance[c] = mean > 0 ? of_weight / (mean * mean) : 0;
+        const double variance = std::max(0.0, of_weight[0][c] + of_weight[1][c] - mean * mean);
+        seen.variance[c] = mean > 0 ? variance / (mean * mean) : 0;
         // R + T may be known where R is not.
-        seen.standard_error[c] =
-            std::sqrt(std::max(variance(sums.squares[0][c], seen.reflect[c]),
-                               variance(sums.squares[1][c], seen.transmit[c])) /
-                      n);
+        for (std::size_t side = 0; side < 2; ++side)
+        {
+            const double spread =
+                std::max(0.0, sum_of_squares[side][c] - sum[side][c] * sum[side][c] / n);
+            seen.standard_error[c] =
+                std::max(seen.standard_error[c], std::sqrt(spread / (n * (n - 1))));
+        }
     }
     return seen;
 }
@@ -105,21 +127,22 @@ Shape sampled_shape(const Subject& subject, double mu, std::uint64_t n, std::uin
     return shape;
 }
 
-// Midpoints of 16 x 16 cells in each bin: narrow lobes are some cells wide.
-Shape integrated_shape(const Subject& subject, double mu)
+// Midpoints of cells x cells in each bin.
+Shape integrated_shape(const Subject& subject, double mu, bool transmits, int cells)
 {
-    constexpr int cells = 16;
-    constexpr int rows = figures::histogram_rows * cells,
-                  columns = figures::histogram_columns * cells;
+    const int rows = figures::histogram_rows * cells, columns = figures::histogram_columns * cells;
     const double pi = std::acos(-1.0);
     // Each stands for itself and its mirror image.
     const double solid_angle = 2 * pi / (double(rows) * columns);
     const Vec3<float> wo = figures::at_angle<float>(mu);
     Shape shape;
     shape.fill(figures::Histogram(2 * histogram_bins));
-    std::vector<Vec3<float>> wi(columns);
-    std::vector<Color3<float>> value(columns);
+    std::vector<Vec3<float>> wi(static_cast<std::size_t>(columns));
+    std::vector<Color3<float>> value(wi.size());
     for (const double side : {1.0, -1.0})
+    {
+        const bool transmitted = (side > 0) != (mu > 0);
+        if (transmitted && !transmits) continue;
         for (int row = 0; row < rows; ++row)
         {
             const double z = side * (row + 0.5) / rows;
@@ -129,28 +152,35 @@ Shape integrated_shape(const Subject& subject, double mu)
             subject.evaluate(wo, wi, value);
             for (std::size_t i = 0; i < wi.size(); ++i)
             {
-                const std::size_t bin = bin_of(Imath::V3d(wi[i]), (z > 0) != (mu > 0));
+                const std::size_t bin = bin_of(Imath::V3d(wi[i]), transmitted);
                 for (std::size_t c = 0; c < 3; ++c)
                     shape[c][bin] += double(value[i][static_cast<int>(c)]) * solid_angle;
             }
         }
+    }
     return shape;
 }
 
 }  // namespace
 
-Lobe measured(const Subject& subject, double side, std::uint64_t n, std::uint64_t for_shape,
-              std::uint64_t seed, const std::function<bool()>& stopped)
+Lobe measured(const Subject& subject, double side, const Effort& effort, std::uint64_t seed,
+              const std::function<bool()>& stopped)
 {
     Lobe lobe;
     for (std::size_t i = 0; i < cosines.size(); ++i)
-        lobe.seen[i] = seen_along(subject, side * cosines[i], n, seed + i, stopped);
+        lobe.seen[i] =
+            seen_along(subject, side * cosines[i], effort.samples, seed + lattices * i, stopped);
     for (std::size_t k = 0; k < shape_cosines.size(); ++k)
     {
         const double mu = side * cosines[shape_cosines[k]];
-        lobe.shapes[k] = subject.is_stochastic()
-                             ? sampled_shape(subject, mu, for_shape, seed + k, stopped)
-                             : integrated_shape(subject, mu);
+        if (subject.is_stochastic())
+        {
+            lobe.shapes[k] = sampled_shape(subject, mu, effort.shape_samples, seed + k, stopped);
+            continue;
+        }
+        const auto& through = lobe.seen[shape_cosines[k]].transmit;
+        const bool transmits = *std::max_element(through.begin(), through.end()) > 0;
+        lobe.shapes[k] = integrated_shape(subject, mu, transmits, effort.cells);
     }
     return lobe;
 }

@@ -34,11 +34,22 @@ struct Lobe
     std::array<Shape, shape_cosines.size()> shapes;
 };
 
-/// Means of n samples for each direction, wo.z of the sign of `side`. The shape is integrated from
-/// eval; where that is an estimate, it is that of `for_shape` samples.
-/// Throws Stopped as soon as `stopped` says so.
-Lobe measured(const Subject&, double side, std::uint64_t n, std::uint64_t for_shape,
-              std::uint64_t seed, const std::function<bool()>& stopped);
+/// Samples for each direction, as several lattices that are shifted at random: how far their means
+/// lie apart says how far all is off.
+constexpr std::uint64_t lattices = 8;
+
+struct Effort
+{
+    std::uint64_t samples = 0;        ///< for each direction; a multiple of `lattices`
+    std::uint64_t shape_samples = 0;  ///< for each of shape_cosines, where eval is an estimate
+    int cells = 16;                   ///< squared, by which eval is integrated in each bin
+};
+
+/// What is seen along each direction, wo.z of the sign of `side`. The shape is integrated from
+/// eval; where that is an estimate, it is that of samples. Throws Stopped as soon as `stopped` says
+/// so.
+Lobe measured(const Subject&, double side, const Effort&, std::uint64_t seed,
+              const std::function<bool()>& stopped);
 
 /// Adds a diffuse base that reflects `base` of what the lobe leaves, exactly.
 void add_base(Lobe&, double base);

@@ -20,7 +20,7 @@ using figures::Times;
 
 // How many more samples the walk takes, for its albedo and for its shape; a method whose eval is an
 // estimate takes half of the latter.
-constexpr std::uint64_t walk_factor = 4, shape_factor = 32;
+constexpr std::uint64_t walk_factor = 4, shape_factor = 16;
 
 // Widths whose lobes are shown.
 constexpr double shown_alphas[] = {0.5, 1};
@@ -60,13 +60,18 @@ bool is_shown(const Case& c, const Part& part, const RunOptions& options)
     }
 }
 
+// Cells of bins are fine enough for the width of a lobe.
+int cells_for(double alpha) { return alpha < 0.2 ? 16 : 8; }
+
 CaseResult measured_case(const Case& c, const RunOptions& options)
 {
     const std::uint64_t seed = options.request.seed;
     const auto stopped = [&] { return options.request.stopped(); };
     CaseResult result;
-    Lobe walk = measured(*make_reference(c.surface), c.side, walk_factor * options.samples,
-                         shape_factor * options.samples, seed + 1000, stopped);
+    const int cells = cells_for(c.alpha);
+    const Effort of_walk{walk_factor * options.samples, shape_factor * options.samples, cells},
+        of_method{options.samples, shape_factor / 2 * options.samples, cells};
+    Lobe walk = measured(*make_reference(c.surface), c.side, of_walk, seed + 1000, stopped);
     if (c.surface.base) add_base(walk, *c.surface.base);
     for (const Part& part : c.parts)
         if (is_shown(c, part, options)) result.lobes = LobeSet{c.kind, c.alpha, part, walk, {}};
@@ -78,8 +83,7 @@ CaseResult measured_case(const Case& c, const RunOptions& options)
         {
             const Bound bound = make_subject(with_method(c.surface, method));
             m.table_bytes = bound.table_bytes;
-            const Lobe lobe = measured(*bound.subject, c.side, options.samples,
-                                       shape_factor / 2 * options.samples, seed, stopped);
+            const Lobe lobe = measured(*bound.subject, c.side, of_method, seed, stopped);
             for (const Part& part : c.parts) m.errors.push_back(compared(lobe, walk, part));
             if (result.lobes) result.lobes->methods.emplace_back(m.method, lobe);
         }

@@ -14,7 +14,7 @@ struct RunOptions
 {
     Choice choice;
     bool quick = false;
-    std::uint64_t samples = 65536;  ///< of each direction; the walk takes four times as many
+    std::uint64_t samples = 32768;  ///< of each direction; the walk takes four times as many
     double seconds_per_picture = 4;
     /// Seed, threads, progress and stop. Errors are the same for any number of threads.
     figures::Request request;

@@ -3,7 +3,6 @@
 
 #include "bake_parts.h"
 
-#include "errors.h"
 #include "preview/progress.h"
 
 #include <fmt/format.h>
@@ -70,24 +69,14 @@ void BakeParts::write(const std::filesystem::path& file, const JobDescription& j
 
 void BakeParts::merge(const std::vector<std::string>& files, const JobDescription& job)
 {
-    const std::vector<PartFile> parts = all_parts(files, job);
     for (Shared& shared : _shared)
         shared.values.resize(shared.integrals.rows() * shared.integrals.length());
-    for (const PartFile& part : parts) try
-        {
-            const std::string bytes = part.payload();
-            PayloadReader reader(bytes);
-            for (Shared& shared : _shared)
-                for (const std::size_t row : rows_of(shared, part.part))
-                    reader.take(shared.values.data() + row * shared.integrals.length(),
-                                shared.integrals.length());
-            reader.finish();
-        }
-        catch (const PayloadReader::Error& e)
-        {
-            throw BadInput(
-                fmt::format("--merge: '{}' is damaged: {}", part.file.string(), e.what()));
-        }
+    read_parts(files, job, [&](const Part& part, PayloadReader& payload) {
+        for (Shared& shared : _shared)
+            for (const std::size_t row : rows_of(shared, part))
+                payload.take(shared.values.data() + row * shared.integrals.length(),
+                             shared.integrals.length());
+    });
 }
 
 luts::Table BakeParts::table(const std::string& name) const

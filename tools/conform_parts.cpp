@@ -3,10 +3,6 @@
 
 #include "conform_parts.h"
 
-#include "errors.h"
-
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <map>
@@ -84,9 +80,8 @@ Histogram take_histogram(PayloadReader& payload)
     return h;
 }
 
-Report read(std::string_view bytes)
+Report read(PayloadReader& payload)
 {
-    PayloadReader payload(bytes);
     const Reader take{payload};
     const auto take_count = [&] {
         std::uint64_t count = 0;
@@ -107,7 +102,6 @@ Report read(std::string_view bytes)
                 f.histogram = std::make_shared<const Histogram>(take_histogram(payload));
         }
     }
-    payload.finish();
     return report;
 }
 
@@ -143,20 +137,14 @@ Report merge_conform_parts(const std::vector<std::string>& files, const JobDescr
     for (const conformance::Subject* subject : subjects)
         place.emplace(subject->name(), place.size());
     Report all;
-    for (const PartFile& part : all_parts(files, job)) try
-        {
-            Report one = read(part.payload());
-            all.tier = one.tier;
-            all.statistical_tests = one.statistical_tests;
-            all.level = one.level;
-            all.seconds += one.seconds;
-            std::move(one.verdicts.begin(), one.verdicts.end(), std::back_inserter(all.verdicts));
-        }
-        catch (const PayloadReader::Error& e)
-        {
-            throw BadInput(
-                fmt::format("--merge: '{}' is damaged: {}", part.file.string(), e.what()));
-        }
+    read_parts(files, job, [&](const Part&, PayloadReader& payload) {
+        Report one = read(payload);
+        all.tier = one.tier;
+        all.statistical_tests = one.statistical_tests;
+        all.level = one.level;
+        all.seconds += one.seconds;
+        std::move(one.verdicts.begin(), one.verdicts.end(), std::back_inserter(all.verdicts));
+    });
     std::stable_sort(all.verdicts.begin(), all.verdicts.end(),
                      [&](const Verdict& a, const Verdict& b) {
                          return place.at(a.subject) < place.at(b.subject);

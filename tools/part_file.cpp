@@ -131,4 +131,20 @@ std::vector<PartFile> all_parts(const std::vector<std::string>& files, const Job
     return parts;
 }
 
+void read_parts(const std::vector<std::string>& files, const JobDescription& job,
+                const std::function<void(const Part&, PayloadReader&)>& read)
+{
+    for (const PartFile& file : all_parts(files, job)) try
+        {
+            const std::string bytes = file.payload();
+            PayloadReader payload(bytes);
+            read(file.part, payload);
+            payload.finish();
+        }
+        catch (const PayloadReader::Error& e)
+        {
+            refuse_file(file.file, std::string("is damaged: ") + e.what());
+        }
+}
+
 }  // namespace regain::tools

@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <cstring>
 #include <filesystem>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -100,5 +101,10 @@ public:
 private:
     std::string_view _left;
 };
+
+/// Calls read for each of all_parts, which takes what the part has, to its end. Throws as all_parts
+/// does.
+void read_parts(const std::vector<std::string>& files, const JobDescription& job,
+                const std::function<void(const Part&, PayloadReader&)>& read);
 
 }  // namespace regain::tools

@@ -3,10 +3,7 @@
 
 #include "render_parts.h"
 
-#include "errors.h"
 #include "preview/render_job.h"
-
-#include <fmt/format.h>
 
 #include <cstdint>
 
@@ -45,26 +42,17 @@ void merge_render_parts(const std::vector<std::string>& files, const std::vector
                         const JobDescription& job)
 {
     std::uint64_t non_finite = 0;
-    for (const PartFile& part : all_parts(files, job)) try
-        {
-            const std::string bytes = part.payload();
-            PayloadReader reader(bytes);
-            std::uint64_t its = 0;
-            reader.take(&its, 1);
-            non_finite += its;
-            for_each_pixel(films, part.part, [&](Film& film, int x, int y) {
-                Film::Pixel pixel;
-                reader.take(pixel.sum, 3);
-                reader.take(&pixel.samples, 1);
-                film.restore(x, y, pixel);
-            });
-            reader.finish();
-        }
-        catch (const PayloadReader::Error& e)
-        {
-            throw BadInput(
-                fmt::format("--merge: '{}' is damaged: {}", part.file.string(), e.what()));
-        }
+    read_parts(files, job, [&](const Part& part, PayloadReader& payload) {
+        std::uint64_t its = 0;
+        payload.take(&its, 1);
+        non_finite += its;
+        for_each_pixel(films, part, [&](Film& film, int x, int y) {
+            Film::Pixel pixel;
+            payload.take(pixel.sum, 3);
+            payload.take(&pixel.samples, 1);
+            film.restore(x, y, pixel);
+        });
+    });
     films.front()->restore_non_finite(non_finite);
 }
 

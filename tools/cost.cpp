@@ -8,12 +8,15 @@
 #include "cost/page.h"
 #include "cost/planner_data.h"
 #include "cost/run.h"
+#include "cost_parts.h"
 #include "errors.h"
+#include "part_options.h"
 #include "preview/interrupt.h"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <chrono>
 #include <memory>
 
 namespace regain::tools {
@@ -28,6 +31,7 @@ struct Options
     std::int64_t samples = 0, seed = 1, threads = 0;
     double seconds = -1;
     bool quick = false, quiet = false, json = false;
+    PartOptions parts;
 };
 
 cost::RunOptions run_options(const Options& o)
@@ -83,17 +87,39 @@ void make_folder(const fs::path& folder)
                                    error ? error.message() : "a file of that name is there"));
 }
 
+int run_part(const Options& options, const cost::RunOptions& run,
+             const std::vector<cost::Case>& cases, const Part& part)
+{
+    const auto start = std::chrono::steady_clock::now();
+    const fs::path file = part_file_name(fs::path(options.folder) / "cost", part);
+    write_cost_part(file, cases, run, part);
+    const double seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (!options.quiet || options.json)
+        report_part(part, file, cases_of(cases, part).size(), cases.size(), "cases", seconds,
+                    options.json);
+    return kDone;
+}
+
 int cost_command(const Options& options)
 {
     cost::RunOptions run = run_options(options);
+    const std::optional<Part> part = options.parts.chosen();
+    if (part && !options.planner_file.empty())
+        throw BadInput("--planner-data does not go with --part: give it to --merge");
     check_file(options.planner_file);
+    const std::vector<cost::Case> cases = cases_of(run.choice);
+    std::vector<cost::CaseErrors> errors;
+    if (options.parts.merges()) errors = merge_cost_parts(options.parts.merged, cases, run);
     const fs::path folder = options.folder;
     make_folder(folder);
     const InterruptGuard interrupt;
     run.request.stop = &interrupt.flag();
     try
     {
-        const cost::Results results = cost::run(run);
+        if (part) return run_part(options, run, cases, *part);
+        if (!options.parts.merges()) errors = errors_of(cases, run);
+        const cost::Results results = results_of(cases, std::move(errors), run);
         const std::vector<cost::Front> fronts = cost::fronts_of(results);
         const std::string json = cost::as_json(results).dump(1);
         figures::write_text(folder / "cost.csv", cost::as_csv(results));
@@ -135,13 +161,16 @@ take, and which methods nothing else beats in both. docs/cost.md explains the nu
 
 Into the folder go cost.csv and cost.json for machines, cost.html for people, which needs
 no other file, and the plots of that page as SVG. Errors are measured on all threads,
-times on one: leave the machine alone meanwhile.
+times on one: leave the machine alone meanwhile. --part K/N measures the errors of every
+N-th case; --merge takes them, measures the times, and writes everything.
 
 Examples:
   regain cost --quick                          a minute on two cores
   regain cost -o /tmp/cost                     all; half an hour
   regain cost --quick --class metal --distribution ggx --method none,turquin,walk
-  regain cost --planner-data method_costs.json what a renderer plans by)");
+  regain cost --planner-data method_costs.json what a renderer plans by
+  regain cost -o /tmp/cost --part 3/7          on one of seven machines
+  regain cost -o /tmp/cost --merge /tmp/cost/cost.part-*-of-7)");
     Options& o = *options;
     command->add_option("--class", o.classes, "of materials, several by commas [all]")
         ->delimiter(',');
@@ -160,6 +189,7 @@ Examples:
         ->capture_default_str();
     command->add_option("-o,--output", o.folder, "folder to write, made if it is not there")
         ->capture_default_str();
+    declare(o.parts, *command);
     command->add_option("--planner-data", o.planner_file,
                         "file to write with errors and time ratios alone, as JSON");
     command->add_flag("--quiet", o.quiet, "no progress, no summary");

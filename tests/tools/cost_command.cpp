@@ -196,6 +196,54 @@ TEST_F(CostCommand, errors_do_not_depend_on_threads)
             EXPECT_EQ(one["rows"][i][field], two["rows"][i][field]) << field;
 }
 
+TEST_F(CostCommand, parts_that_are_merged_are_one_run)
+{
+    const std::string what =
+        std::string(small) +
+        "--class metal,plastic --distribution ggx --method none,directional,walk ";
+    const json whole = run(what + "--json").json();
+    const std::string page = read("cost/cost.html");
+    for (const int k : {3, 1, 2})
+    {
+        const auto o = run(what + fmt::format("--json --part {}/3", k));
+        ASSERT_EQ(o.code, 0) << o.err;
+        EXPECT_EQ(o.json()["kind"], "cases");
+    }
+    const std::string parts = "--merge FOLDER/cost/cost.part-*-of-3";
+    const auto merged = run(what + parts + " --json --planner-data FOLDER/plan.json");
+    ASSERT_EQ(merged.code, 0) << merged.err;
+    const json rows = merged.json()["rows"];
+    ASSERT_EQ(rows.size(), whole["rows"].size());
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        for (const auto& [field, value] : whole["rows"][i].items())
+        {
+            if (says(field, "_ns") || says(field, "eval_") || says(field, "sample_")) continue;
+            EXPECT_EQ(rows[i][field], value) << field;
+        }
+    // The lobes that are shown came along.
+    const auto strips = [](const std::string& html) {
+        std::size_t n = 0;
+        for (auto at = html.find("data:image/png"); at != html.npos;
+             at = html.find("data:image/png", at + 1))
+            ++n;
+        return n;
+    };
+    EXPECT_GT(strips(page), 0u);
+    EXPECT_EQ(strips(read("cost/cost.html")), strips(page));
+    EXPECT_FALSE(read("plan.json").empty());
+
+    const auto refused = [&](const std::string& options) {
+        const auto o = run(what + options);
+        EXPECT_EQ(o.code, 2) << options;
+        return o.err;
+    };
+    EXPECT_TRUE(says(refused("--seed 2 " + parts), "is of another job: seed: '1' there, '2' here"));
+    EXPECT_TRUE(
+        says(refused("--merge FOLDER/cost/cost.part-1-of-3"), "of 3 parts 2 are not given"));
+    EXPECT_TRUE(says(refused("--part 1/3 --planner-data FOLDER/p"), "give it to --merge"));
+    EXPECT_TRUE(says(refused("--part 4/3"), "1 <= K <= N"));
+}
+
 TEST_F(CostCommand, refused_combinations_are_told_with_the_reason)
 {
     const auto o = run(std::string(small) +

@@ -25,19 +25,11 @@ constexpr std::uint64_t walk_factor = 4, shape_factor = 16;
 // Widths whose lobes are shown.
 constexpr double shown_alphas[] = {0.5, 1};
 
-struct MethodResult
+struct MethodTimes
 {
-    std::string method, refused;
-    std::vector<Errors> errors;  // by part
-    std::size_t table_bytes = 0;
     Times times, to_none, to_white;
 };
-
-struct CaseResult
-{
-    std::vector<MethodResult> methods;
-    std::optional<LobeSet> lobes;
-};
+using CaseTimes = std::vector<MethodTimes>;  // by method
 
 Surface with_method(Surface surface, const shaders::Compensation& method)
 {
@@ -63,11 +55,11 @@ bool is_shown(const Case& c, const Part& part, const RunOptions& options)
 // Cells of bins are fine enough for the width of a lobe.
 int cells_for(double alpha) { return alpha < 0.2 ? 16 : 8; }
 
-CaseResult measured_case(const Case& c, const RunOptions& options)
+CaseErrors errors_of_case(const Case& c, const RunOptions& options)
 {
     const std::uint64_t seed = options.request.seed;
     const auto stopped = [&] { return options.request.stopped(); };
-    CaseResult result;
+    CaseErrors result;
     const int cells = cells_for(c.alpha);
     const Effort of_walk{walk_factor * options.samples, shape_factor * options.samples, cells},
         of_method{options.samples, shape_factor / 2 * options.samples, cells};
@@ -77,7 +69,7 @@ CaseResult measured_case(const Case& c, const RunOptions& options)
         if (is_shown(c, part, options)) result.lobes = LobeSet{c.kind, c.alpha, part, walk, {}};
     for (const shaders::Compensation& method : options.choice.methods)
     {
-        MethodResult m;
+        MethodErrors m;
         m.method = shaders::name(method);
         try
         {
@@ -96,25 +88,6 @@ CaseResult measured_case(const Case& c, const RunOptions& options)
     return result;
 }
 
-std::vector<CaseResult> measured_cases(const std::vector<Case>& cases, const RunOptions& options)
-{
-    std::vector<CaseResult> results(cases.size());
-    Progress progress("errors", cases.size(), options.request.progress);
-    const int cores = tbb::info::default_concurrency();
-    const int threads = options.request.threads;
-    tbb::task_arena arena(threads > 0 ? std::min(threads, cores) : cores);
-    arena.execute([&] {
-        tbb::parallel_for(
-            std::size_t(0), cases.size(),
-            [&](std::size_t i) {
-                results[i] = measured_case(cases[i], options);
-                progress.advance();
-            },
-            tbb::simple_partitioner());
-    });
-    return results;
-}
-
 Times over(const Times& a, const Times& b) { return {a.eval / b.eval, a.sample / b.sample}; }
 
 // Directions of which wo is on one side; wi on both, of what lets light through.
@@ -126,7 +99,7 @@ figures::Inputs inputs_of(const Case& c)
     return inputs;
 }
 
-void clock_case(const Case& c, const RunOptions& options, CaseResult& result)
+CaseTimes times_of_case(const Case& c, const RunOptions& options, const CaseErrors& errors)
 {
     Surface white;
     white.material.surface = shaders::SchlickSurface{};
@@ -134,59 +107,53 @@ void clock_case(const Case& c, const RunOptions& options, CaseResult& result)
     white.material.method = Method::none;
     const figures::Inputs inputs = inputs_of(c), above;
 
+    CaseTimes result(errors.methods.size());
     std::vector<std::unique_ptr<Subject>> subjects;  // the white one last
     std::vector<Clocked> clocks;
-    std::vector<MethodResult*> timed;
-    const MethodResult* none = nullptr;
-    for (std::size_t i = 0; i < result.methods.size(); ++i)
+    std::vector<MethodTimes*> timed;
+    const MethodTimes* none = nullptr;
+    for (std::size_t i = 0; i < result.size(); ++i)
     {
-        MethodResult& m = result.methods[i];
-        if (!m.refused.empty()) continue;
+        if (!errors.methods[i].refused.empty()) continue;
         subjects.push_back(make_subject(with_method(c.surface, options.choice.methods[i])).subject);
         clocks.push_back(subjects.back()->clock(inputs));
-        timed.push_back(&m);
-        if (m.method == "none") none = &m;
+        timed.push_back(&result[i]);
+        if (errors.methods[i].method == "none") none = &result[i];
     }
     subjects.push_back(make_subject(white).subject);
     clocks.push_back(subjects.back()->clock(above));
     const std::vector<Times> times =
         figures::clocked(clocks, options.quick ? 9 : 31, [&] { return options.request.stopped(); });
     for (std::size_t i = 0; i < timed.size(); ++i) timed[i]->times = times[i];
-    for (MethodResult* m : timed)
+    for (MethodTimes* m : timed)
     {
         m->to_white = over(m->times, times.back());
         if (none) m->to_none = over(m->times, none->times);
     }
+    return result;
 }
 
-void clock_cases(const std::vector<Case>& cases, const RunOptions& options,
-                 std::vector<CaseResult>& results)
+std::vector<CaseTimes> times_of(const std::vector<Case>& cases, const RunOptions& options,
+                                const std::vector<CaseErrors>& errors)
 {
     Progress progress("times", cases.size(), options.request.progress);
-    const CaseResult* last = nullptr;
+    std::vector<CaseTimes> times;
     for (std::size_t i = 0; i < cases.size(); ++i)
     {
-        if (cases[i].timed)
-        {
-            clock_case(cases[i], options, results[i]);
-            last = &results[i];
-        }
-        else
-            // The one before is as costly.
-            for (std::size_t k = 0; k < results[i].methods.size(); ++k)
-            {
-                MethodResult& m = results[i].methods[k];
-                m.times = last->methods[k].times;
-                m.to_none = last->methods[k].to_none;
-                m.to_white = last->methods[k].to_white;
-            }
+        // Of those that are not timed the one before is as costly.
+        times.push_back(cases[i].timed ? times_of_case(cases[i], options, errors[i])
+                                       : times.back());
         progress.advance();
     }
+    return times;
 }
 
-void add_rows(const Case& c, const CaseResult& result, std::vector<Row>& rows)
+void add_rows(const Case& c, const CaseErrors& errors, const CaseTimes& times,
+              std::vector<Row>& rows)
 {
-    for (const MethodResult& m : result.methods)
+    for (std::size_t i = 0; i < errors.methods.size(); ++i)
+    {
+        const MethodErrors& m = errors.methods[i];
         for (std::size_t p = 0; p < c.parts.size(); ++p)
         {
             Row row;
@@ -197,22 +164,40 @@ void add_rows(const Case& c, const CaseResult& result, std::vector<Row>& rows)
             row.method = m.method;
             row.refused = m.refused;
             if (m.refused.empty()) row.errors = m.errors[p];
-            row.times = m.times;
-            row.to_none = m.to_none;
-            row.to_white = m.to_white;
+            row.times = times[i].times;
+            row.to_none = times[i].to_none;
+            row.to_white = times[i].to_white;
             row.table_bytes = m.table_bytes;
             rows.push_back(std::move(row));
         }
+    }
 }
 
 }  // namespace
 
-Results run(const RunOptions& options)
+std::vector<CaseErrors> errors_of(const std::vector<Case>& cases, const RunOptions& options)
 {
-    const std::vector<Case> cases = cases_of(options.choice);
-    std::vector<CaseResult> measured = measured_cases(cases, options);
-    clock_cases(cases, options, measured);
+    std::vector<CaseErrors> results(cases.size());
+    Progress progress("errors", cases.size(), options.request.progress);
+    const int cores = tbb::info::default_concurrency();
+    const int threads = options.request.threads;
+    tbb::task_arena arena(threads > 0 ? std::min(threads, cores) : cores);
+    arena.execute([&] {
+        tbb::parallel_for(
+            std::size_t(0), cases.size(),
+            [&](std::size_t i) {
+                results[i] = errors_of_case(cases[i], options);
+                progress.advance();
+            },
+            tbb::simple_partitioner());
+    });
+    return results;
+}
 
+Results results_of(const std::vector<Case>& cases, std::vector<CaseErrors> errors,
+                   const RunOptions& options)
+{
+    const std::vector<CaseTimes> times = times_of(cases, options, errors);
     Results results;
     results.quick = options.quick;
     results.samples = options.samples;
@@ -223,8 +208,8 @@ Results run(const RunOptions& options)
     results.choice = options.choice;
     for (std::size_t i = 0; i < cases.size(); ++i)
     {
-        add_rows(cases[i], measured[i], results.rows);
-        if (measured[i].lobes) results.lobes.push_back(std::move(*measured[i].lobes));
+        add_rows(cases[i], errors[i], times[i], results.rows);
+        if (errors[i].lobes) results.lobes.push_back(std::move(*errors[i].lobes));
     }
     results.pictures =
         equal_time_scenes(options.choice, options.seconds_per_picture, options.request);

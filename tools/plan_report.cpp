@@ -54,6 +54,11 @@ Json as_json(const MaterialPlan& m)
            {"tables", as_json(m.tables)},
            {"notes", m.notes}};
     for (const PlannedLobe& lobe : m.lobes) j["closures"].push_back(as_json(lobe));
+    if (m.tiles.across > 0)
+        j["tiles"] = {{"across", m.tiles.across},
+                      {"choices", m.tiles.choices},
+                      {"choice_of", m.tiles.choice_of},
+                      {"price_of_one", m.tiles.price_of_one}};
     return j;
 }
 
@@ -66,6 +71,21 @@ std::string kept(const MaterialPlan& m)
 {
     if (!m.is_known) return "error not known";
     return fmt::format("error {:.2g}{}", m.error, m.is_within ? "" : ", beyond the tolerance");
+}
+
+// "by tile of 8 x 8: 40 none, 24 turquin"; of several closures, methods in their order.
+std::string tiles_of(const MaterialPlan& m)
+{
+    std::vector<std::string> all;
+    for (std::size_t i = 0; i < m.tiles.choices.size(); ++i)
+    {
+        std::vector<std::string> methods;
+        for (const std::string& method : m.tiles.choices[i])
+            if (!method.empty()) methods.push_back(method);
+        all.push_back(
+            fmt::format("{} {}", m.tiles.count(i), fmt::format("{}", fmt::join(methods, " + "))));
+    }
+    return fmt::format("by tile of {0} x {0}: {1}", m.tiles.across, fmt::join(all, ", "));
 }
 
 std::string lines_of(const MaterialPlan& m)
@@ -82,6 +102,9 @@ std::string lines_of(const MaterialPlan& m)
                             lobe.eval + lobe.sample);
         text += fmt::format("               {}\n", lobe.why);
     }
+    if (m.tiles.across > 0)
+        text += fmt::format("  {}; one plan for all: price {:.3g}\n", tiles_of(m),
+                            m.tiles.price_of_one);
     for (const std::string& note : m.notes) text += fmt::format("  {}\n", note);
     return text;
 }
@@ -139,6 +162,7 @@ std::string as_text(const ScenePlan& plan, double tolerance)
 
 std::string chosen_methods(const MaterialPlan& m)
 {
+    if (m.tiles.across > 0) return tiles_of(m);
     std::vector<std::string> all;
     for (const PlannedLobe& lobe : m.lobes)
         if (!lobe.left_out) all.push_back(lobe.name + " " + lobe.method);

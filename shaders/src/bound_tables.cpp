@@ -6,6 +6,7 @@
 #include <regain/luts/bake.h>
 #include <regain/luts/builtin.h>
 #include <regain/luts/table.h>
+#include <regain/shaders/tables_read.h>
 
 #include <algorithm>
 
@@ -99,10 +100,14 @@ void add_table(const PlannedTable& table, std::vector<PlannedTable>& all)
         all.push_back(table);
 }
 
-void add_bound_tables(const MicrofacetMaterial& m, std::vector<PlannedTable>& all)
+void add_bound_tables(const MicrofacetMaterial& m, bool for_albedo, std::vector<PlannedTable>& all)
 {
     Collector collect(m, all);
-    collect(m.tables());
+    const MicrofacetTables& bound = m.tables();
+    MicrofacetTables read = tables_read(m.method, bound);
+    // Those of ggx come all together, whatever is used.
+    if (for_albedo) static_cast<AlbedoTables&>(read) = bound;
+    collect(read);
     collect(m.interface_tables());
 }
 

@@ -13,8 +13,9 @@
 REGAIN_NAMESPACE_BEGIN
 namespace shaders::planning {
 
-/// Adds those of a material whose tables are bound; each is there once.
-void add_bound_tables(const MicrofacetMaterial&, std::vector<PlannedTable>&);
+/// Adds those of a material whose tables are bound that its method reads, or its albedo, where a
+/// host asks for it; each is there once.
+void add_bound_tables(const MicrofacetMaterial&, bool for_albedo, std::vector<PlannedTable>&);
 
 /// The same.
 void add_table(const PlannedTable&, std::vector<PlannedTable>&);

@@ -92,7 +92,7 @@ SurfacePoint point_at(int i, int j, int n)
 }  // namespace
 
 void at_planned_points(const VaryingTree& surface,
-                       const std::function<void(const std::vector<PlacedLobe>&)>& visit)
+                       const std::function<void(const PlannedPlace&)>& visit)
 {
     Imath::V4f values[VaryingTree::most_values];
     const int n = !surface.varies()              ? 1
@@ -102,7 +102,7 @@ void at_planned_points(const VaryingTree& surface,
         for (int i = 0; i < n; ++i)
         {
             surface.values_at(point_at(i, j, n), values);
-            visit(Walk(surface, values).lobes());
+            visit({i, j, n, Walk(surface, values).lobes()});
         }
 }
 

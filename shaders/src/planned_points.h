@@ -24,10 +24,15 @@ struct PlacedLobe
     bool covers = false;  ///< another one gets what it lets by
 };
 
+struct PlannedPlace
+{
+    int i = 0, j = 0, across = 1;  ///< of across x across places, along u and v
+    std::vector<PlacedLobe> lobes;
+};
+
 /// Calls visit with the closures of each place; a closure that is in several places of the tree is
 /// there once, with the sum of its weights. They are always the same ones, in the same order.
-void at_planned_points(const VaryingTree&,
-                       const std::function<void(const std::vector<PlacedLobe>&)>& visit);
+void at_planned_points(const VaryingTree&, const std::function<void(const PlannedPlace&)>& visit);
 
 }  // namespace shaders::planning
 REGAIN_NAMESPACE_END

@@ -5,13 +5,10 @@
 
 #include "bound_tables.h"
 #include "called_for.h"
-#include "method_prediction.h"
-#include "plan_search.h"
-#include "plan_words.h"
-#include "planned_points.h"
+#include "lobe_range.h"
 
 #include <algorithm>
-#include <cmath>
+#include <optional>
 #include <stdexcept>
 
 REGAIN_NAMESPACE_BEGIN
@@ -20,28 +17,9 @@ namespace {
 
 using namespace planning;
 
-// A closure over all places where its material is planned.
-struct LobeRange
-{
-    PlacedLobe first;
-    bool is_there = false;  // somewhere
-    int places = 0;
-    CalledFor called_for;
-    std::vector<NamedOffer> offers;  // the worst errors and the mean price
-    std::vector<Prediction> sums;    // of the times, by offer
-    ColorD without{0.0};             // the worst error of single scattering
-    bool knows_without = true;
-
-    const MicrofacetMaterial* facets() const
-    {
-        return std::get_if<MicrofacetMaterial>(&first.material);
-    }
-};
-
-void widen(ColorD& worst, const ColorD& error)
-{
-    for (int c = 0; c < 3; ++c) worst[c] = std::max(worst[c], error[c]);
-}
+// Of texture coordinates, along each side; and the part of the price that tiles have to save.
+constexpr int tiles_across = 8;
+constexpr double worth_tiles = 0.05;
 
 class MaterialPlanner
 {
@@ -56,17 +34,23 @@ public:
     MaterialPlan plan()
     {
         simplify();
-        at_planned_points(_plan.surface, [&](const std::vector<PlacedLobe>& lobes) {
-            if (_ranges.empty()) begin(lobes);
-            for (std::size_t k = 0; k < lobes.size(); ++k) look_at(lobes[k], _ranges[k]);
-        });
-        for (LobeRange& r : _ranges) finish(r);
-        choose();
+        // Where a plan is the reference there is nothing to choose by tile.
+        const bool by_tile = _tolerance > 0 && may_have_tiles(_plan.surface);
+        if (by_tile) _tiles.resize(tiles_across * tiles_across);
+        at_planned_points(_plan.surface, [&](const PlannedPlace& place) { look_at(place); });
+        finish(_ranges);
+        const auto choice = cheapest(_ranges, _tolerance);
+        take(choice);
+        if (by_tile && _plan.is_known) take_tiles(choice);
         bind();
         return std::move(_plan);
     }
 
 private:
+    using Ranges = std::vector<LobeRange>;
+    // By lobe; nothing where there is no choice.
+    using Methods = std::vector<std::optional<Compensation>>;
+
     ClosureTree& tree() { return _plan.surface.tree; }
 
     void simplify()
@@ -79,122 +63,77 @@ private:
         }
     }
 
-    void begin(const std::vector<PlacedLobe>& lobes)
+    static bool may_have_tiles(const VaryingTree& surface)
     {
-        for (const PlacedLobe& l : lobes)
+        return surface.varies() && surface.program.needs_texcoord_alone() &&
+               surface.values() < VaryingTree::most_values;
+    }
+
+    void look_at(const PlannedPlace& place)
+    {
+        if (_ranges.empty())
         {
-            LobeRange r;
-            r.first = l;
-            if (const auto* m = r.facets())
-                for (const Compensation& method : predictable_methods(_costs, *m))
-                    r.offers.push_back({method, {}});
-            r.sums.resize(r.offers.size());
-            _ranges.push_back(std::move(r));
+            for (const PlacedLobe& l : place.lobes) _ranges.emplace_back(_costs, l);
+            for (Ranges& tile : _tiles) tile = _ranges;
+        }
+        for (std::size_t k = 0; k < place.lobes.size(); ++k)
+        {
+            const PlacedLobe& lobe = place.lobes[k];
+            const LobePredictions predictions = _ranges[k].predict(_costs, lobe);
+            _ranges[k].look_at(lobe, predictions);
+            if (_tiles.empty()) continue;
+            for_tiles_at(place, [&](std::size_t i) { _tiles[i][k].look_at(lobe, predictions); });
         }
     }
-
-    void look_at(const PlacedLobe& lobe, LobeRange& r) const
+    // What is a step beyond a tile counts as in it, since numbers vary between places.
+    template <class Visit>
+    static void for_tiles_at(const PlannedPlace& place, const Visit& visit)
     {
-        if (lobe.weight == ColorD(0.0) || is_black(lobe.material)) return;
-        r.is_there = true;
-        ++r.places;
-        add(r.called_for, called_for_by(lobe.material));
-        const auto* m = std::get_if<MicrofacetMaterial>(&lobe.material);
-        if (!m) return;
-        for (std::size_t i = 0; i < r.offers.size();)
-        {
-            const auto p = predicted(_costs, *m, r.offers[i].method);
-            if (!p)
-            {
-                r.offers.erase(r.offers.begin() + static_cast<std::ptrdiff_t>(i));
-                r.sums.erase(r.sums.begin() + static_cast<std::ptrdiff_t>(i));
-                continue;
-            }
-            widen(r.offers[i].offer.error, p->error * lobe.weight);
-            r.sums[i].eval += p->eval;
-            r.sums[i].sample += p->sample;
-            ++i;
-        }
+        const int n = place.across / tiles_across;
+        const auto first = [&](int i) { return std::max((i - 1) / n, 0); };
+        const auto last = [&](int i) { return std::min((i + 1) / n, tiles_across - 1); };
+        for (int y = first(place.j); y <= last(place.j); ++y)
+            for (int x = first(place.i); x <= last(place.i); ++x)
+                visit(static_cast<std::size_t>(x + tiles_across * y));
     }
 
-    // What several closures ask besides, eval and sample aside, is an albedo of each; some methods
-    // know theirs by an integral alone.
-    bool knows_albedo(const Compensation& method, const LobeRange& r) const
+    void finish(Ranges& ranges) const
     {
-        const auto* walk = std::get_if<RandomWalk>(&method);
-        if (std::holds_alternative<Balanced>(method)) return false;
-        if (!walk) return true;
-        const bool has_tables = !r.facets()->is_interface() || !has_gamma(r.facets()->distribution);
-        if (walk->bounded) return has_tables;
-        // As a reference it may take its time, but what is below gets what the albedo leaves.
-        return _tolerance == 0 && !r.first.covers;
-    }
-
-    void finish(LobeRange& r)
-    {
-        r.knows_without = !r.facets();
-        for (std::size_t i = 0; i < r.offers.size(); ++i)
-        {
-            const double n = std::max(r.places, 1);
-            r.sums[i].eval /= n;
-            r.sums[i].sample /= n;
-            r.offers[i].offer.price = r.sums[i].eval + r.sums[i].sample;
-            if (name(r.offers[i].method) != "none") continue;
-            r.without = r.offers[i].offer.error;
-            r.knows_without = true;
-        }
-        r.called_for.layering = r.first.covers && r.is_there;
-        r.called_for.multiple_scattering = r.knows_without && largest(r.without) > _tolerance;
-    }
-
-    void choose()
-    {
+        // What is somewhere in the material is asked for its albedo everywhere.
         const auto there = std::count_if(_ranges.begin(), _ranges.end(),
-                                         [](const LobeRange& r) { return r.is_there; });
-        std::vector<std::vector<Offer>> offers;
-        std::vector<LobeRange*> chosen_of;
-        for (LobeRange& r : _ranges)
+                                         [](const LobeRange& r) { return r.is_there(); });
+        for (LobeRange& r : ranges)
         {
-            if (there > 1) drop_unknown_albedos(r);
-            if (!r.is_there || r.offers.empty()) continue;
-            offers.emplace_back();
-            for (const NamedOffer& o : r.offers) offers.back().push_back(o.offer);
-            chosen_of.push_back(&r);
+            r.finish(_tolerance);
+            if (there > 1) r.drop_unknown_albedos(_tolerance);
         }
-        const auto chosen = cheapest_within(offers, _tolerance);
-        ColorD sum(0.0);
-        for (std::size_t k = 0; k < chosen.size(); ++k) sum += offers[k][chosen[k]].error;
-        _plan.error = largest(sum);
+    }
+
+    void take(const Choice& choice)
+    {
+        _plan.error = choice.error;
+        _plan.eval = choice.eval;
+        _plan.sample = choice.sample;
         _plan.is_within = _plan.error <= _tolerance;
-        for (LobeRange& r : _ranges)
+        for (std::size_t k = 0; k < _ranges.size(); ++k)
         {
-            const auto at = std::find(chosen_of.begin(), chosen_of.end(), &r);
-            if (at == chosen_of.end())
-                keep(r);
+            if (choice.offers[k])
+                take(_ranges[k], *choice.offers[k]);
             else
-                take(r, chosen[static_cast<std::size_t>(at - chosen_of.begin())]);
+                keep(_ranges[k]);
             add(_plan.called_for, _plan.lobes.back().called_for);
         }
-    }
-    void drop_unknown_albedos(LobeRange& r) const
-    {
-        for (std::size_t i = r.offers.size(); i-- > 0;)
-            if (!knows_albedo(r.offers[i].method, r))
-            {
-                r.offers.erase(r.offers.begin() + static_cast<std::ptrdiff_t>(i));
-                r.sums.erase(r.sums.begin() + static_cast<std::ptrdiff_t>(i));
-            }
     }
 
     PlannedLobe described(const LobeRange& r)
     {
         PlannedLobe lobe;
-        lobe.node = r.first.node;
+        lobe.node = r.first().node;
         for (int k = 0; k < tree().lobes(); ++k)
             if (tree().node_of(k) == lobe.node) lobe.name = tree().lobe_name(k);
-        lobe.closure = closure_name(r.first.material);
+        lobe.closure = closure_name(r.first().material);
         if (r.facets()) lobe.distribution = name(r.facets()->distribution);
-        lobe.called_for = r.called_for;
+        lobe.called_for = r.called_for();
         return lobe;
     }
 
@@ -202,7 +141,7 @@ private:
     void keep(const LobeRange& r)
     {
         PlannedLobe lobe = described(r);
-        if (!r.is_there)
+        if (!r.is_there())
         {
             lobe.left_out = true;
             lobe.error = 0;
@@ -232,7 +171,7 @@ private:
     void take(const LobeRange& r, std::size_t i)
     {
         PlannedLobe lobe = described(r);
-        const NamedOffer& chosen = r.offers[i];
+        const NamedOffer& chosen = r.offers()[i];
         MicrofacetMaterial m = std::get<MicrofacetMaterial>(tree().material_of(lobe.node));
         m.method = chosen.method;
         auto* interface = std::get_if<InterfaceSurface>(&m.surface);
@@ -247,27 +186,97 @@ private:
         tree().set_material(lobe.node, m);
         lobe.method = name(chosen.method);
         lobe.error = largest(chosen.offer.error);
-        if (r.knows_without) lobe.error_without = largest(r.without);
-        lobe.eval = r.sums[i].eval;
-        lobe.sample = r.sums[i].sample;
-        _plan.eval += lobe.eval;
-        _plan.sample += lobe.sample;
-        lobe.why = why_chosen(r.offers, i, _plan.error <= _tolerance, _tolerance);
+        if (r.without()) lobe.error_without = largest(*r.without());
+        lobe.eval = r.mean(i).eval;
+        lobe.sample = r.mean(i).sample;
+        lobe.why = why_chosen(r.offers(), i, _plan.error <= _tolerance, _tolerance);
         _plan.lobes.push_back(std::move(lobe));
+    }
+
+    // One choice for each tile, where all together cost less than one for all: `whole`.
+    void take_tiles(const Choice& whole)
+    {
+        PlannedTiles tiles;
+        tiles.across = tiles_across;
+        double eval = 0, sample = 0;
+        for (Ranges& ranges : _tiles)
+        {
+            finish(ranges);
+            const Choice choice = cheapest(ranges, _tolerance);
+            tiles.error = std::max(tiles.error, choice.error);
+            tiles.eval += choice.eval / double(_tiles.size());
+            tiles.sample += choice.sample / double(_tiles.size());
+            Methods methods(ranges.size());
+            for (std::size_t k = 0; k < ranges.size(); ++k)
+            {
+                if (!whole.offers[k]) continue;
+                const Compensation& of_all = _ranges[k].offers()[*whole.offers[k]].method;
+                methods[k] =
+                    choice.offers[k] ? ranges[k].offers()[*choice.offers[k]].method : of_all;
+                if (!ranges[k].is_there()) continue;
+                const Prediction* same = ranges[k].mean_of(of_all);
+                eval += same->eval / double(_tiles.size());
+                sample += same->sample / double(_tiles.size());
+            }
+            tiles.choice_of.push_back(add_choice(methods, tiles));
+        }
+        tiles.price_of_one = eval + sample;
+        if (tiles.eval + tiles.sample > (1 - worth_tiles) * tiles.price_of_one) return;
+        _plan.error = tiles.error;
+        _plan.is_within = _plan.error <= _tolerance;
+        _plan.eval = tiles.eval;
+        _plan.sample = tiles.sample;
+        _plan.tiles = std::move(tiles);
+    }
+    std::size_t add_choice(const Methods& methods, PlannedTiles& tiles)
+    {
+        std::vector<std::string> names;
+        for (std::size_t k = 0; k < methods.size(); ++k)
+            names.emplace_back(methods[k] ? name(*methods[k]) : _plan.lobes[k].method);
+        for (std::size_t i = 0; i < tiles.choices.size(); ++i)
+            if (tiles.choices[i] == names) return i;
+        tiles.choices.push_back(names);
+        _methods_of_choices.push_back(methods);
+        return tiles.choices.size() - 1;
     }
 
     void bind()
     {
-        tree().bind_tables();
-        for (int k = 0; k < tree().lobes(); ++k)
-            if (const auto* m = std::get_if<MicrofacetMaterial>(&tree().material(k)))
-                add_bound_tables(*m, _plan.tables);
+        std::vector<ClosureTree> trees;
+        for (std::size_t i = 0; i < _plan.tiles.choices.size(); ++i)
+        {
+            ClosureTree of_tiles = tree();
+            for (std::size_t k = 0; k < _plan.lobes.size(); ++k)
+                if (const auto& method = _methods_of_choices[i][k])
+                    set_method(of_tiles, _plan.lobes[k].node, *method);
+            bind(of_tiles);
+            trees.push_back(std::move(of_tiles));
+        }
+        bind(tree());
+        if (trees.empty()) return;
+        const auto& of = _plan.tiles.choice_of;
+        _plan.surface.set_tiles(_plan.tiles.across, {of.begin(), of.end()}, std::move(trees));
+    }
+    static void set_method(ClosureTree& t, ClosureTree::Node lobe, const Compensation& method)
+    {
+        ClosureTree::Material m = t.material_of(lobe);
+        std::get<MicrofacetMaterial>(m).method = method;
+        t.set_material(lobe, m);
+    }
+    void bind(ClosureTree& t)
+    {
+        t.bind_tables();
+        for (int k = 0; k < t.lobes(); ++k)
+            if (const auto* m = std::get_if<MicrofacetMaterial>(&t.material(k)))
+                add_bound_tables(*m, t.lobes() > 1, _plan.tables);
     }
 
     const MethodCosts& _costs;
     double _tolerance;
     MaterialPlan _plan;
-    std::vector<LobeRange> _ranges;
+    Ranges _ranges;              // by lobe
+    std::vector<Ranges> _tiles;  // row by row; empty where nothing is planned by tile
+    std::vector<Methods> _methods_of_choices;
 };
 
 std::size_t sum_of(const std::vector<PlannedTable>& tables, bool compiled_in)
@@ -279,6 +288,11 @@ std::size_t sum_of(const std::vector<PlannedTable>& tables, bool compiled_in)
 }
 
 }  // namespace
+
+std::size_t PlannedTiles::count(std::size_t choice) const
+{
+    return static_cast<std::size_t>(std::count(choice_of.begin(), choice_of.end(), choice));
+}
 
 std::size_t ScenePlan::loaded_bytes() const { return sum_of(tables, false); }
 std::size_t ScenePlan::compiled_in_bytes() const { return sum_of(tables, true); }

@@ -250,6 +250,14 @@ int ValueProgram::output(const Value& v)
     return static_cast<int>(_outputs.size()) - 1;
 }
 
+bool ValueProgram::needs_texcoord_alone() const
+{
+    return std::none_of(_order.begin(), _order.end(), [&](int step) {
+        const Source source = _steps[static_cast<std::size_t>(step)].source;
+        return source == Source::position || source == Source::normal;
+    });
+}
+
 int ValueProgram::images() const
 {
     return static_cast<int>(std::count_if(_order.begin(), _order.end(), [&](int i) {

@@ -100,16 +100,51 @@ void VaryingTree::apply(ClosureTree::Node lobe, Material& material, const V4f* v
     }
 }
 
+void VaryingTree::set_tiles(int across, std::vector<std::uint8_t> tree_of,
+                            std::vector<ClosureTree> trees)
+{
+    if (across < 1 || tree_of.size() != static_cast<std::size_t>(across) * std::size_t(across))
+        throw std::invalid_argument(std::to_string(tree_of.size()) + " tiles, " +
+                                    std::to_string(across) + " across: takes a square of them");
+    for (const std::uint8_t t : tree_of)
+        if (t >= trees.size())
+            throw std::invalid_argument("a tile of tree " + std::to_string(t) + ": there are " +
+                                        std::to_string(trees.size()));
+    for (const ClosureTree& t : trees)
+    {
+        bool same = t.lobes() == tree.lobes();
+        for (int k = 0; same && k < t.lobes(); ++k) same = t.node_of(k) == tree.node_of(k);
+        if (!same) throw std::invalid_argument("a tree of tiles has other closures");
+    }
+    _texcoord = add(program.texcoord());
+    _across = across;
+    _tree_of = std::move(tree_of);
+    _trees = std::move(trees);
+}
+
+const ClosureTree& VaryingTree::tree_at(const V4f* values) const
+{
+    if (_across == 0) return tree;
+    const V4f& uv = values[_texcoord];
+    if (!(uv.x >= 0 && uv.x < 1 && uv.y >= 0 && uv.y < 1)) return tree;
+    // Rounded, a coordinate just below 1 may be `across`.
+    const auto place = [&](float x) {
+        return std::min(static_cast<int>(x * static_cast<float>(_across)), _across - 1);
+    };
+    const int tile = place(uv.x) + _across * place(uv.y);
+    return _trees[_tree_of[static_cast<std::size_t>(tile)]];
+}
+
 VaryingTree::Material VaryingTree::material(int k, const V4f* values) const
 {
-    Material m = tree.material(k);
+    Material m = tree_at(values).material(k);
     apply(tree.node_of(k), m, values);
     return m;
 }
 
 VaryingTree::Material VaryingTree::material_of(ClosureTree::Node node, const V4f* values) const
 {
-    Material m = tree.material_of(node);
+    Material m = tree_at(values).material_of(node);
     apply(node, m, values);
     return m;
 }

@@ -16,6 +16,7 @@
 using namespace regain;
 using namespace regain::shaders;
 using namespace regain::tests;
+using Imath::V4f;
 
 namespace {
 
@@ -228,24 +229,26 @@ TEST(Plans, what_is_on_top_has_the_error_of_a_coat)
     EXPECT_EQ(plan.lobes[1].error, 0);
 }
 
+// Metal of alpha = 0.05 + scale times the first component of `along`.
+VaryingTree varying(double scale, Value (ValueProgram::*along)() = &ValueProgram::texcoord)
+{
+    VaryingTree surface;
+    auto& p = surface.program;
+    const Value u = p.apply(ValueOp::lane, {(p.*along)(), Value(0.0f)}, 1);
+    const Value alpha = p.apply(
+        ValueOp::add, {p.apply(ValueOp::multiply, {u, Value(float(scale))}, 1), Value(0.05f)}, 1);
+    const auto lobe = surface.tree.lobe(metal(0.05));
+    surface.vary(lobe, MaterialNumber::alpha, alpha);
+    surface.tree.set_root(lobe);
+    return surface;
+}
+
 TEST(Plans, numbers_that_vary_are_planned_over_their_range)
 {
-    // alpha = 0.05 + 0.95 u.
-    const auto varying = [](double scale) {
-        VaryingTree surface;
-        auto& p = surface.program;
-        const Value u = p.apply(ValueOp::lane, {p.texcoord(), Value(0.0f)}, 1);
-        const Value alpha =
-            p.apply(ValueOp::add,
-                    {p.apply(ValueOp::multiply, {u, Value(float(scale))}, 1), Value(0.05f)}, 1);
-        const auto lobe = surface.tree.lobe(metal(0.05));
-        surface.vary(lobe, MaterialNumber::alpha, alpha);
-        surface.tree.set_root(lobe);
-        return surface;
-    };
     EXPECT_EQ(method_of(planned(varying(0), 0.02)), "none");
     EXPECT_EQ(method_of(planned(varying(0.95), 0.02)), "balanced");
-    EXPECT_NEAR(planned(varying(0.95), 0.02).error, planned(metal(0.99), 0.02).error, 3e-4);
+    EXPECT_NEAR(*planned(varying(0.95), 0.02).lobes[0].error, planned(metal(0.99), 0.02).error,
+                3e-4);
 
     // A weight that is 0 nowhere is not left out; one that is 0 everywhere is.
     for (const float most : {0.0f, 1.0f})
@@ -259,6 +262,70 @@ TEST(Plans, numbers_that_vary_are_planned_over_their_range)
             surface.tree.lobe(PlainMaterial{OrenNayarSurface{}})));
         EXPECT_EQ(planned(surface, 0.1).lobes[0].left_out, most == 0);
     }
+}
+
+TEST(Plans, tiles_are_kept_where_they_pay)
+{
+    const auto plan = planned(varying(0.95), 0.03);
+    const PlannedTiles& tiles = plan.tiles;
+    ASSERT_EQ(tiles.across, 8);
+    EXPECT_LE(plan.price(), 0.95 * tiles.price_of_one);
+    EXPECT_TRUE(plan.is_within);
+    // What is smooth is not compensated, what is rough is; v changes nothing.
+    ASSERT_EQ(tiles.choice_of.size(), 64u);
+    for (std::size_t i = 0; i < 64; ++i) EXPECT_EQ(tiles.choice_of[i], tiles.choice_of[i % 8]);
+    EXPECT_EQ(tiles.choices[tiles.choice_of[0]], std::vector<std::string>{"none"});
+    EXPECT_EQ(tiles.choices[tiles.choice_of[3]], std::vector<std::string>{"turquin"});
+    EXPECT_EQ(tiles.choices[tiles.choice_of[7]], std::vector<std::string>{"balanced"});
+    std::size_t all = 0;
+    for (std::size_t i = 0; i < tiles.choices.size(); ++i) all += tiles.count(i);
+    EXPECT_EQ(all, 64u);
+
+    // Shaded, each place has its tile's method, and its own width; beyond the square
+    // what goes everywhere.
+    const auto at = [&](float u, float v) {
+        V4f values[VaryingTree::most_values];
+        plan.surface.values_at({{u, v}}, values);
+        return std::get<MicrofacetMaterial>(plan.surface.material(0, values));
+    };
+    for (int i = 0; i < 8; ++i)
+        for (const float v : {0.0f, 0.49f, std::nextafter(1.0f, 0.0f)})
+        {
+            const float u = (float(i) + 0.3f) / 8;
+            const auto m = at(u, v);
+            EXPECT_EQ(std::vector<std::string>{std::string(name(m.method))},
+                      tiles.choices[tiles.choice_of[std::size_t(i)]]);
+            EXPECT_NEAR(m.alpha_x, 0.05 + 0.95 * double(u), 1e-6);
+        }
+    for (const float u : {-0.1f, 1.0f, 2.5f}) EXPECT_EQ(name(at(u, 0.5f).method), "balanced") << u;
+
+    // Not where all tiles want the same, what varies is not known by texture coordinates, or the
+    // plan is the reference.
+    EXPECT_EQ(planned(varying(0.01), 0.03).tiles.across, 0);
+    EXPECT_EQ(planned(varying(0.95, &ValueProgram::position), 0.03).tiles.across, 0);
+    EXPECT_EQ(planned(varying(0.95), 0).tiles.across, 0);
+}
+
+TEST(Plans, the_error_of_tiles_is_that_of_their_widths)
+{
+    // Every tile keeps what was promised, also between the places that were looked at.
+    const auto plan = planned(varying(0.95), 0.03);
+    ASSERT_EQ(plan.tiles.across, 8);
+    double worst = 0;
+    for (int i = 0; i < 8; ++i)
+        for (int k = 0; k <= 100; ++k)
+        {
+            MicrofacetMaterial m = metal(0.05 + 0.95 * (i + 0.01 * k) / 8);
+            const std::string method = plan.tiles.choices[plan.tiles.choice_of[std::size_t(i)]][0];
+            // The error of that method alone, at any tolerance that lets it pass.
+            for (const double tolerance : {1.0, 0.1, 0.05, 0.02, 0.015, 0.01, 0.005})
+            {
+                const auto alone = planned(m, tolerance);
+                if (method_of(alone) == method) worst = std::max(worst, alone.error);
+            }
+        }
+    EXPECT_GT(worst, 0);
+    EXPECT_LE(worst, 1.001 * plan.error);
 }
 
 TEST(Plans, two_widths_count_as_the_worse)

@@ -5,8 +5,9 @@
 
 #include "../errors.h"
 #include "../table_bytes.h"
-#include "../tables_read.h"
 #include "subject_model.h"
+
+#include <regain/shaders/tables_read.h>
 
 #include <stdexcept>
 
@@ -53,7 +54,7 @@ Bound make_subject(Surface surface)
     bound.subject = maker(surface.material.distribution).surface(surface);
     const auto& m = surface.material;
     bound.table_bytes =
-        bytes_of(tables_read(m.method, m.tables())) + bytes_of(m.interface_tables());
+        bytes_of(shaders::tables_read(m.method, m.tables())) + bytes_of(m.interface_tables());
     return bound;
 }
 

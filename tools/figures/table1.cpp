@@ -6,7 +6,6 @@
 
 #include "table1.h"
 #include "../table_bytes.h"
-#include "../tables_read.h"
 #include "clock.h"
 #include "figure.h"
 #include "measures.h"
@@ -23,6 +22,7 @@
 #include <regain/closures/schlick_fresnel.h>
 #include <regain/closures/walk.h>
 #include <regain/luts/builtin.h>
+#include <regain/shaders/tables_read.h>
 
 #include <fmt/format.h>
 
@@ -359,7 +359,7 @@ Figure make_table1(const Request& request)
     const MicrofacetTables tables = luts::ggx_tables();
     std::vector<Row> rows;
     const auto add = [&](const std::string& name, const std::string& form, const auto& make) {
-        const auto size = bytes_of(tables_read(*shaders::compensation_named(name), tables));
+        const auto size = bytes_of(shaders::tables_read(*shaders::compensation_named(name), tables));
         rows.push_back(measured_row(name, form, make, request, truth, inputs, size));
     };
     for (const Method method : all_methods)

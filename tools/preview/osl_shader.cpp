@@ -157,26 +157,28 @@ const ClosureColor* closure_of(const VaryingTree& surface, const Imath::V4f* val
 namespace {
 
 // The kinds of closures of the tree, with their tables.
-osl::ClosureLibrary library_of(const ClosureTree& tree)
+osl::ClosureLibrary library_of(const VaryingTree& surface)
 {
     osl::ClosureLibrary library{osl::ClosureLibrary::Empty{}};
-    const bool several = tree.lobes() > 1 || tree.presence() < 1;
+    const bool several = surface.lobes() > 1 || surface.tree.presence() < 1;
+    std::vector<const ClosureTree*> trees{&surface.tree};
+    for (const ClosureTree& of_tiles : surface.trees_of_tiles()) trees.push_back(&of_tiles);
     // A kind is looked for by what it is, which says nothing of its widths: first those that have
     // the tables of two.
     for (const bool anisotropic : {true, false})
-        for (int k = 0; k < tree.lobes(); ++k)
-        {
-            const auto* m = std::get_if<MicrofacetMaterial>(&tree.material(k));
-            if (!m || std::holds_alternative<shaders::SheenSurface>(m->surface)) continue;
-            if ((m->alpha_x != m->alpha_y) == anisotropic) library.add(*m, several);
-        }
+        for (const ClosureTree* tree : trees)
+            for (int k = 0; k < tree->lobes(); ++k)
+            {
+                const auto* m = std::get_if<MicrofacetMaterial>(&tree->material(k));
+                if (!m || std::holds_alternative<shaders::SheenSurface>(m->surface)) continue;
+                if ((m->alpha_x != m->alpha_y) == anisotropic) library.add(*m, several);
+            }
     return library;
 }
 
 }  // namespace
 
-TreeShader::TreeShader(const VaryingTree& surface)
-    : OslShader(library_of(surface.tree)), _tree(surface)
+TreeShader::TreeShader(const VaryingTree& surface) : OslShader(library_of(surface)), _tree(surface)
 {
     const ClosureTree& tree = surface.tree;
     _lets_by = !surface.is_all_there();

@@ -17,7 +17,8 @@
 /// the tolerance, tables that no closure reads. At a tolerance of 0 a plan is the reference: the
 /// walk where it goes, elsewhere the method of least error.
 ///
-/// Numbers that vary are planned over their range: over the unit square of texture coordinates.
+/// Numbers that vary are planned over their range: over the unit square of texture coordinates, and
+/// where that saves a twentieth of the price, tile by tile.
 
 #pragma once
 
@@ -84,12 +85,27 @@ struct PlannedTable
     bool compiled_in = false;  ///< it is not loaded from a file
 };
 
+/// What was chosen for each tile of the unit square of texture coordinates; VaryingTree::set_tiles
+/// says which they are. Beyond the square, methods are those of MaterialPlan::lobes.
+struct PlannedTiles
+{
+    int across = 0;                                 ///< 0: one plan for all
+    std::vector<std::size_t> choice_of;             ///< of each tile
+    std::vector<std::vector<std::string>> choices;  ///< methods, by lobe; empty of those left out
+    double error = 0, eval = 0, sample = 0;         ///< the worst; means
+    double price_of_one = 0;                        ///< of one plan for all
+
+    /// Tiles of that choice.
+    REGAIN_SHADERS_API std::size_t count(std::size_t choice) const;
+};
+
 struct MaterialPlan
 {
     std::string name;
     VaryingTree surface;  ///< as planned, its tables bound
     CalledFor called_for;
     std::vector<PlannedLobe> lobes;
+    PlannedTiles tiles;
     double error = 0;       ///< predicted, of the closures that have an error
     bool is_known = true;   ///< they all have
     bool is_within = true;  ///< the tolerance; false, too, where it is not known

@@ -133,6 +133,8 @@ public:
     int outputs() const { return static_cast<int>(_outputs.size()); }
     /// Some output varies.
     bool varies() const { return !_order.empty(); }
+    /// Of the point, outputs need texture coordinates and nothing else.
+    REGAIN_SHADERS_API bool needs_texcoord_alone() const;
     /// Pictures that outputs read.
     REGAIN_SHADERS_API int images() const;
 

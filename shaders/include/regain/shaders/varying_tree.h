@@ -18,6 +18,7 @@
 #include <regain/shaders/closure_tree.h>
 #include <regain/shaders/value_program.h>
 
+#include <cstdint>
 #include <vector>
 
 REGAIN_NAMESPACE_BEGIN
@@ -57,6 +58,15 @@ public:
     /// Of the surface; one that does not vary goes to the tree.
     REGAIN_SHADERS_API void set_presence(const Value&);
 
+    /// Cuts the unit square of texture coordinates into across x across tiles: where
+    /// floor(across u) + across floor(across v) is i, closures are those of trees[tree_of[i]], and
+    /// beyond the square those of `tree`. The trees differ from it in methods of compensation and
+    /// tables alone. Throws std::invalid_argument where a tile has no tree or a tree not its
+    /// closures, std::length_error beyond most_values.
+    REGAIN_SHADERS_API void set_tiles(int across, std::vector<std::uint8_t> tree_of,
+                                      std::vector<ClosureTree> trees);
+    const std::vector<ClosureTree>& trees_of_tiles() const { return _trees; }
+
     bool varies() const { return program.varies(); }
     bool has_varying_presence() const { return _presence >= 0; }
     /// Some of it may not be there.
@@ -89,11 +99,15 @@ private:
         int value;
     };
     void apply(ClosureTree::Node, Material&, const Imath::V4f* values) const;
+    const ClosureTree& tree_at(const Imath::V4f* values) const;
     int add(const Value&);
 
     std::vector<Varied> _varied;
     std::vector<int> _parameters;  // values
     int _presence = -1;
+    int _across = 0, _texcoord = -1;  // of tiles; a value
+    std::vector<std::uint8_t> _tree_of;
+    std::vector<ClosureTree> _trees;
 };
 
 }  // namespace shaders

@@ -8,28 +8,31 @@
 
 #include <regain/shaders/microfacet_material.h>
 
-namespace regain::tools {
+REGAIN_NAMESPACE_BEGIN
+namespace shaders {
 
 /// Of those, what eval and sample by the method read.
-inline MicrofacetTables tables_read(const shaders::Compensation& method, const MicrofacetTables& t)
+inline MicrofacetTables tables_read(const Compensation& method, const MicrofacetTables& t)
 {
     MicrofacetTables read;
     const auto* gain = std::get_if<Method>(&method);
-    const auto* walk = std::get_if<shaders::RandomWalk>(&method);
+    const auto* walk = std::get_if<RandomWalk>(&method);
     if ((gain && *gain == Method::none) || (walk && !walk->bounded) ||
-        std::holds_alternative<shaders::BurleySheen>(method))
+        std::holds_alternative<BurleySheen>(method))
         return read;
-    const bool tail = std::holds_alternative<shaders::Tail>(method),
-               balanced = std::holds_alternative<shaders::Balanced>(method);
+    const bool tail = std::holds_alternative<Tail>(method),
+               balanced = std::holds_alternative<Balanced>(method);
     read.E_ss = t.E_ss;
+    read.anisotropy = t.anisotropy;
     if (walk || (gain && (*gain == Method::turquin_eq12 || *gain == Method::series)))
         read.E_avg = t.E_avg;
-    if (tail || balanced || std::holds_alternative<shaders::Directional>(method))
+    if (tail || balanced || std::holds_alternative<Directional>(method))
         read.q_ms = t.q_ms, read.mu_ms = t.mu_ms;
-    if (balanced) read.balance = t.balance;
+    if (balanced) read.balance = t.balance, read.balance_anisotropy = t.balance_anisotropy;
     if (tail) read.falloff = t.falloff, read.dip = t.dip, read.tilt = t.tilt;
     if (tail || walk) read.spread = t.spread, read.forward = t.forward;
     return read;
 }
 
-}  // namespace regain::tools
+}  // namespace shaders
+REGAIN_NAMESPACE_END

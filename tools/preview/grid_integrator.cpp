@@ -70,11 +70,12 @@ struct GridIntegrator::Workspace
     V3f in_object[kBatch];
 
     Environment::Light light[kBatch];
+    C3f visible[kBatch];
     V3f direction[kBatch];
     renderman::LobeSet wanted[kBatch], evaluated[kBatch];
     renderman::Lobe sampled[kBatch];
     C3f weights[static_cast<std::size_t>(renderman::kMaxActive) * kBatch];
-    float forward_pdf[kBatch], reverse_pdf[kBatch], ior[kBatch];
+    float forward_pdf[kBatch], ior[kBatch];
 
     /// Of these paths where they are, on a material.
     renderman::ShadingContext context(const GridMaterial& material, Path* const* paths, int n)
@@ -267,7 +268,9 @@ int GridIntegrator::keep_present(const GridMaterial& material, Path* const* path
 void GridIntegrator::add_direct_light(renderman::Bxdf& bxdf, Path* const* paths, int n, int bounce,
                                       Workspace& w) const
 {
-    // Points where evaluating cannot give anything sit the call out.
+    // Points where evaluating cannot give anything sit the call out. Among them are those in
+    // shadow: next to a ray, a closure that walks is dear, and inside of glass half of all
+    // directions to a light lead through it.
     const renderman::Domain domain = bxdf.evaluateDomain();
     for (int i = 0; i < n; ++i)
     {
@@ -275,26 +278,26 @@ void GridIntegrator::add_direct_light(renderman::Bxdf& bxdf, Path* const* paths,
             _world.environment.sample(paths[i]->sampler.get2D(dimension(Draw::Light, bounce)));
         w.direction[i] = direction;
         w.light[i] = light;
-        const bool useful = light.pdf > 0.0f && (domain & w.place(i, direction));
-        w.wanted[i] = useful ? renderman::LobeSet::all() : renderman::LobeSet();
+        w.visible[i] = C3f(0.0f);
+        if (light.pdf > 0.0f && (domain & w.place(i, direction)))
+            w.visible[i] = visibility(
+                _world.scene, paths[i]->hit.leave(direction), _some_let_by,
+                [&, towards = direction](const Hit& hit) { return opacity_at(hit, -towards, w); });
+        w.wanted[i] = w.visible[i] == C3f(0.0f) ? renderman::LobeSet() : renderman::LobeSet::all();
     }
 
     renderman::LobeWeights weights(w.weights, n);
     w.rng.start(w.samplers, n, dimension(Draw::Evaluate, bounce));
+    // Paths start at the camera alone: nobody asks for pdfs of the way back.
     bxdf.evaluateSample(renderman::kDirect, w.wanted, &w.rng, w.evaluated, w.direction, weights,
-                        w.forward_pdf, w.reverse_pdf);
+                        w.forward_pdf, nullptr);
     for (int i = 0; i < n; ++i)
     {
         if (!w.wanted[i].any() || !w.evaluated[i].any()) continue;
-        const C3f value = weights.total(i);
-        if (value == C3f(0.0f)) continue;
-        const C3f visible =
-            visibility(_world.scene, paths[i]->hit.leave(w.direction[i]), _some_let_by,
-                       [&](const Hit& hit) { return opacity_at(hit, -w.direction[i], w); });
-        if (visible == C3f(0.0f)) continue;
         const Environment::Light& light = w.light[i];
         const float share = mis_weight(light.pdf, w.forward_pdf[i]) / light.pdf;
-        paths[i]->radiance += paths[i]->throughput * value * visible * light.radiance * share;
+        paths[i]->radiance +=
+            paths[i]->throughput * weights.total(i) * w.visible[i] * light.radiance * share;
     }
 }
 
@@ -306,7 +309,7 @@ void GridIntegrator::scatter(renderman::Bxdf& bxdf, Path* const* paths, int n, i
     renderman::LobeWeights weights(w.weights, n);
     w.rng.start(w.samplers, n, dimension(Draw::Scatter, bounce));
     bxdf.generateSample(renderman::kAnyLighting, w.wanted, &w.rng, w.sampled, w.direction, weights,
-                        w.forward_pdf, w.reverse_pdf, nullptr);
+                        w.forward_pdf, nullptr, nullptr);
     const bool two_media = bxdf.materialIor(w.ior);
     for (int i = 0; i < n; ++i)
     {

@@ -4,7 +4,7 @@
 // `regain cost`: what accuracy costs in time, for every method and class of material.
 
 #include "commands.h"
-#include "cost/fronts.h"
+#include "cost/fronts_page.h"
 #include "cost/page.h"
 #include "cost/planner_data.h"
 #include "cost/run.h"
@@ -125,6 +125,7 @@ int cost_command(const Options& options)
         figures::write_text(folder / "cost.csv", cost::as_csv(results));
         figures::write_text(folder / "cost.json", json + "\n");
         figures::write_text(folder / "cost.html", cost::html_page(results, fronts));
+        figures::write_text(folder / "cost-fronts.md", cost::fronts_page(results, fronts));
         for (const auto& [file, svg] : cost::plots(fronts)) figures::write_text(folder / file, svg);
         if (!options.planner_file.empty())
             figures::write_text(options.planner_file, cost::planner_data(results));
@@ -160,7 +161,7 @@ lobe are from the random walk's, how noisy samples are, how long an eval and a s
 take, and which methods nothing else beats in both. docs/cost.md explains the numbers.
 
 Into the folder go cost.csv and cost.json for machines, cost.html for people, which needs
-no other file, and the plots of that page as SVG. Errors are measured on all threads,
+no other file, its plots as SVG, and its sentences with a table as cost-fronts.md. Errors are measured on all threads,
 times on one: leave the machine alone meanwhile. --part K/N measures the errors of every
 N-th case; --merge takes them, measures the times, and writes everything.
 

@@ -77,7 +77,7 @@ private:
             for (int i = 0; i < ctx->numPts; ++i)
             {
                 evaluated[i].clear();
-                fwd[i] = rev[i] = 0.0f;
+                set(i, 0, 0, fwd, rev);
                 if (wanted[i].has(lobe()) && answer(i, Ln[i], out, fwd, rev))
                     evaluated[i] = renderman::LobeSet(lobe());
             }
@@ -89,14 +89,19 @@ private:
 
     private:
         static renderman::Lobe lobe() { return {renderman::LobeClass::Diffuse, 0, true, false}; }
+        // The way back may not be asked for.
+        static void set(int i, float forward, float back, float* fwd, float* rev)
+        {
+            fwd[i] = forward;
+            if (rev) rev[i] = back;
+        }
         bool answer(int i, const V3f& L, C3f* out, float* fwd, float* rev) const
         {
             const float cosine = ctx->Nn[i].dot(L);
-            fwd[i] = rev[i] = 0.0f;
+            set(i, 0, 0, fwd, rev);
             if (cosine <= 0.0f || ctx->Ngn[i].dot(L) <= 0.0f || ctx->Nn[i].dot(ctx->Vn[i]) <= 0.0f)
                 return false;
-            fwd[i] = cosine * kInvPi;
-            rev[i] = ctx->Nn[i].dot(ctx->Vn[i]) * kInvPi;
+            set(i, cosine * kInvPi, ctx->Nn[i].dot(ctx->Vn[i]) * kInvPi, fwd, rev);
             out[i] = _albedo * fwd[i];
             return true;
         }

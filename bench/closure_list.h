@@ -48,14 +48,15 @@ void visit_mirror(const std::string& name, const TableSets& tables, const Lobe& 
         if (method != Method::none)
             visit(name, std::string(regain::name(method)), bytes_of(tables.albedo),
                   [=, t = tables.albedo](const Real& alpha) {
-                      return compensated(lobe(alpha, t), method, t, all);
+                      return build_compensated([&] { return lobe(alpha, t); }, method, t, all);
                   });
     visit(name, "directional", bytes_of(tables.directional),
           [=, t = tables.directional](const Real& alpha) {
-              return directional(lobe(alpha, t), t, all);
+              return build_directional([&] { return lobe(alpha, t); }, t, all);
           });
-    visit(name, "balanced", bytes_of(tables.balanced),
-          [=, t = tables.balanced](const Real& alpha) { return balanced(lobe(alpha, t), t, all); });
+    visit(name, "balanced", bytes_of(tables.balanced), [=, t = tables.balanced](const Real& alpha) {
+        return build_balanced([&] { return lobe(alpha, t); }, t, all);
+    });
     for (const KullaContyForm form : all_kulla_conty_forms)
         visit(name, std::string(regain::name(form)), bytes_of(tables.albedo),
               [=, t = tables.albedo](const Real& alpha) {
@@ -110,7 +111,8 @@ void visit_glass(const TableSets& tables, const Visit& visit)
         if (!own) continue;
         for (const Method method : gains)
             visit(lobe, std::string(name(method)), bytes_of(own), [=, t = own](const Real& alpha) {
-                return compensated(L::glass(alpha, shadowing, t), method, t, all);
+                return build_compensated([&] { return L::glass(alpha, shadowing, t); }, method, t,
+                                         LossTables{}, all);
             });
         visit(lobe, "kulla-conty", bytes_of(own), [=, t = own](const Real& alpha) {
             return kulla_conty(L::glass(alpha, shadowing, t), t, all);

@@ -91,17 +91,21 @@ void count_mirrors(const TableSets& tables)
                &shape = tables.tail;
     count_all("white/none", [&](float alpha) { return L::white(alpha, t); });
     count_all("schlick/none", [&](float alpha) { return L::schlick(alpha, t); });
-    count_all("schlick/turquin",
-              [&](float alpha) { return compensated(L::schlick(alpha, t), Method::turquin, t); });
-    count_all("schlick/directional",
-              [&](float alpha) { return directional(L::schlick(alpha, later), later); });
-    count_all("schlick/balanced",
-              [&](float alpha) { return balanced(L::schlick(alpha, balance), balance); });
+    count_all("schlick/turquin", [&](float alpha) {
+        return build_compensated([&] { return L::schlick(alpha, t); }, Method::turquin, t);
+    });
+    count_all("schlick/directional", [&](float alpha) {
+        return build_directional([&] { return L::schlick(alpha, later); }, later);
+    });
+    count_all("schlick/balanced", [&](float alpha) {
+        return build_balanced([&] { return L::schlick(alpha, balance); }, balance);
+    });
     count_all("schlick/tail",
               [&](float alpha) { return fitted_tail(L::schlick(alpha, shape), shape); });
     count_all("conductor/none", [&](float alpha) { return L::conductor(alpha, t); });
-    count_all("conductor/turquin",
-              [&](float alpha) { return compensated(L::conductor(alpha, t), Method::turquin, t); });
+    count_all("conductor/turquin", [&](float alpha) {
+        return build_compensated([&] { return L::conductor(alpha, t); }, Method::turquin, t);
+    });
 }
 
 void count_glass(const TableSets& tables)
@@ -114,11 +118,14 @@ void count_glass(const TableSets& tables)
     };
     count_all("glass/none", correlated);
     count_all("glass/turquin", [&](float alpha) {
-        return compensated(correlated(alpha), Method::turquin, tables.correlated);
+        return build_compensated([&] { return correlated(alpha); }, Method::turquin,
+                                 tables.correlated, LossTables{});
     });
     count_all("glass-beta/none", beta);
-    count_all("glass-beta/turquin",
-              [&](float alpha) { return compensated(beta(alpha), Method::turquin, tables.beta); });
+    count_all("glass-beta/turquin", [&](float alpha) {
+        return build_compensated([&] { return beta(alpha); }, Method::turquin, tables.beta,
+                                 LossTables{});
+    });
     count_all("glass-beta/tail",
               [&](float alpha) { return fitted_tail(beta(alpha), tables.beta_tail); });
 }

@@ -74,6 +74,12 @@ public:
         _rise = end(Real(1.5f)) - _grazing;
     }
 
+    /// Of a lobe's distribution and Fresnel term.
+    template <class Lobe>
+    REGAIN_INLINE BalancedGain(const Lobe& lobe, const MicrofacetTables& tables, Real strength)
+        : BalancedGain(lobe.distribution(), lobe.fresnel(), tables, strength)
+    {}
+
     REGAIN_HOST_DEVICE Color at(const Vec3<Real>&) const { return Color(Real(1)); }
 
     REGAIN_HOST_DEVICE Color pair(const Vec3<Real>& wo, const Vec3<Real>& wi) const
@@ -132,7 +138,16 @@ REGAIN_HOST_DEVICE Compensated<Lobe, BalancedGain<typename Lobe::Fresnel>> balan
     typename Lobe::Real strength = typename Lobe::Real(1))
 {
     if (!lobe.tables().has_albedo()) lobe.set_tables(tables);
-    return {BuildGain(), lobe, lobe.distribution(), lobe.fresnel(), tables, strength};
+    return {BuildInPlace(), [&]() -> const Lobe& { return lobe; }, tables, strength};
+}
+
+/// The same of the lobe make(): see build_compensated.
+template <class MakeLobe, class Lobe = std::decay_t<decltype(std::declval<const MakeLobe&>()())>>
+REGAIN_INLINE Compensated<Lobe, BalancedGain<typename Lobe::Fresnel>> build_balanced(
+    const MakeLobe& make, const MicrofacetTables& tables,
+    typename Lobe::Real strength = typename Lobe::Real(1))
+{
+    return {BuildInPlace(), make, tables, strength};
 }
 
 REGAIN_NAMESPACE_END

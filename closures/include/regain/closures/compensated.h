@@ -9,10 +9,13 @@
 
 #include <regain/closures/method_gain.h>
 
+#include <type_traits>
+#include <utility>
+
 REGAIN_NAMESPACE_BEGIN
 
-/// Asks Compensated to build its gain.
-struct BuildGain
+/// Asks Compensated to build what it is made of where it stays.
+struct BuildInPlace
 {};
 
 template <class LobeType, class GainType>
@@ -28,10 +31,10 @@ public:
 
     REGAIN_INLINE Compensated(const Lobe& lobe, const Gain& gain) : _lobe(lobe), _gain(gain) {}
 
-    /// With Gain(arguments...), which is built where it stays.
-    template <class... Arguments>
-    REGAIN_INLINE Compensated(BuildGain, const Lobe& lobe, const Arguments&... arguments)
-        : _lobe(lobe), _gain(arguments...)
+    /// The lobe make(), with Gain(lobe, arguments...).
+    template <class MakeLobe, class... Arguments>
+    REGAIN_INLINE Compensated(BuildInPlace, const MakeLobe& make, const Arguments&... arguments)
+        : _lobe(make()), _gain(_lobe, arguments...)
     {}
 
     REGAIN_HOST_DEVICE const Lobe& lobe() const { return _lobe; }
@@ -149,7 +152,18 @@ REGAIN_INLINE Compensated<Lobe, MethodGain<typename Lobe::Real>> compensated(
     typename Lobe::Real strength = typename Lobe::Real(1))
 {
     if (!lobe.tables().has_albedo()) lobe.set_tables(tables);
-    return {BuildGain(), lobe, lobe, method, tables, strength};
+    return {BuildInPlace(), [&]() -> const Lobe& { return lobe; }, method, tables, strength};
+}
+
+/// compensated(make(), method, tables, strength), for closures that are built at every shading
+/// point: the lobe is made where it stays, with the tables that make() gives it. A copy costs more
+/// than the rest, since a processor waits where it reads back at once what was written in pieces.
+template <class MakeLobe, class Lobe = std::decay_t<decltype(std::declval<const MakeLobe&>()())>>
+REGAIN_INLINE Compensated<Lobe, MethodGain<typename Lobe::Real>> build_compensated(
+    const MakeLobe& make, Method method, const MicrofacetTables& tables,
+    typename Lobe::Real strength = typename Lobe::Real(1))
+{
+    return {BuildInPlace(), make, method, tables, strength};
 }
 
 /// The lobe with a gain hook of the caller's.

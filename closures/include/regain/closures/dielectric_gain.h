@@ -102,7 +102,9 @@ REGAIN_HOST_DEVICE
                 typename Distribution::Real strength = typename Distribution::Real(1))
 {
     if (!lobe.tables()) lobe.set_tables(tables);
-    return {BuildGain(), lobe, lobe, method, tables, mirror, strength};
+    return {BuildInPlace(), [&]() -> const Dielectric<Distribution>& { return lobe; },
+            method,         tables,
+            mirror,         strength};
 }
 /// The same for modes RT and T.
 template <class Distribution>
@@ -112,6 +114,15 @@ REGAIN_HOST_DEVICE
                 typename Distribution::Real strength = typename Distribution::Real(1))
 {
     return compensated(lobe, method, tables, LossTables{}, strength);
+}
+
+/// The same of the dielectric make(), with the tables that it has: see compensated.h.
+template <class MakeLobe, class Lobe = std::decay_t<decltype(std::declval<const MakeLobe&>()())>>
+REGAIN_INLINE Compensated<Lobe, DielectricGain<typename Lobe::Real>> build_compensated(
+    const MakeLobe& make, Method method, const DielectricTables& tables, const LossTables& mirror,
+    typename Lobe::Real strength = typename Lobe::Real(1))
+{
+    return {BuildInPlace(), make, method, tables, mirror, strength};
 }
 
 REGAIN_NAMESPACE_END

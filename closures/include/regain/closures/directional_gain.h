@@ -54,7 +54,12 @@ public:
     template <class Distribution>
     REGAIN_HOST_DEVICE DirectionalGain(const Distribution& distribution, const Fresnel& fresnel,
                                        const MicrofacetTables& tables, Real strength)
-        : _tables(tables), _axes(distribution), _fresnel(fresnel), _strength(Real(0))
+        : _tables(tables),
+          _q_ms(tables.q_ms),
+          _mu_ms(tables.mu_ms),
+          _axes(distribution),
+          _fresnel(fresnel),
+          _strength(Real(0))
     {
         _bound = tables.has_albedo() && tables.has_later_bounces();
         if (!_bound) return;
@@ -65,6 +70,12 @@ public:
         _preserves = detail::all<Real>(s == Real(1)) &&
                      detail::all<Real>(distribution.alpha_x() == distribution.alpha_y());
     }
+
+    /// Of a lobe's distribution and Fresnel term.
+    template <class Lobe>
+    REGAIN_INLINE DirectionalGain(const Lobe& lobe, const MicrofacetTables& tables, Real strength)
+        : DirectionalGain(lobe.distribution(), lobe.fresnel(), tables, strength)
+    {}
 
     REGAIN_HOST_DEVICE Color at(const Vec3<Real>& wo) const
     {
@@ -81,16 +92,18 @@ public:
     REGAIN_HOST_DEVICE Color F_ms(Real mu) const
     {
         // Short of 1, where a perfect mirror's series has no sum.
-        const Real q = detail::min(_tables.later_share(_axes, mu), detail::constant<Real>(0.999));
-        return later_bounces_tint(_fresnel.at(detail::saturate(_tables.later_cosine(_axes, mu))),
-                                  q);
+        const Real q =
+            detail::min(_tables.later_share(_q_ms, _axes, mu), detail::constant<Real>(0.999));
+        return later_bounces_tint(
+            _fresnel.at(detail::saturate(_tables.later_cosine(_mu_ms, _axes, mu))), q);
     }
 
     /// At full strength; of an anisotropic lobe it is not promised.
     REGAIN_HOST_DEVICE bool energy_preserving() const { return _bound && _preserves; }
 
 private:
-    MicrofacetTables _tables;
+    LossTables _tables;
+    TableView _q_ms, _mu_ms;
     DirectionAxes<Real> _axes;
     Fresnel _fresnel;
     Real _strength;
@@ -105,7 +118,16 @@ REGAIN_HOST_DEVICE Compensated<Lobe, DirectionalGain<typename Lobe::Fresnel>> di
     typename Lobe::Real strength = typename Lobe::Real(1))
 {
     if (!lobe.tables().has_albedo()) lobe.set_tables(tables);
-    return {BuildGain(), lobe, lobe.distribution(), lobe.fresnel(), tables, strength};
+    return {BuildInPlace(), [&]() -> const Lobe& { return lobe; }, tables, strength};
+}
+
+/// The same of the lobe make(): see build_compensated.
+template <class MakeLobe, class Lobe = std::decay_t<decltype(std::declval<const MakeLobe&>()())>>
+REGAIN_INLINE Compensated<Lobe, DirectionalGain<typename Lobe::Fresnel>> build_directional(
+    const MakeLobe& make, const MicrofacetTables& tables,
+    typename Lobe::Real strength = typename Lobe::Real(1))
+{
+    return {BuildInPlace(), make, tables, strength};
 }
 
 REGAIN_NAMESPACE_END

@@ -293,6 +293,20 @@ struct LossTables
         return detail::min(value(number), Real(1));
     }
 
+    /// q_ms and mu_ms at the cosine mu in [0, 1], of MicrofacetTables with these.
+    template <class Real>
+    REGAIN_HOST_DEVICE Real later_share(const TableView& q_ms, const TableAxes<Real>& axes,
+                                        Real mu) const
+    {
+        return fits ? fits->q_ms(mu, axes.alpha()) : axes.later(q_ms, mu);
+    }
+    template <class Real>
+    REGAIN_HOST_DEVICE Real later_cosine(const TableView& mu_ms, const TableAxes<Real>& axes,
+                                         Real mu) const
+    {
+        return fits ? fits->mu_ms(mu, axes.alpha()) : axes.later(mu_ms, mu);
+    }
+
 protected:
     template <class Real>
     REGAIN_HOST_DEVICE Real value(Real number) const
@@ -350,12 +364,12 @@ struct MicrofacetTables : AlbedoTables
     template <class Real>
     REGAIN_HOST_DEVICE Real later_share(const TableAxes<Real>& axes, Real mu) const
     {
-        return fits ? fits->q_ms(mu, axes.alpha()) : axes.later(q_ms, mu);
+        return LossTables::later_share(q_ms, axes, mu);
     }
     template <class Real>
     REGAIN_HOST_DEVICE Real later_cosine(const TableAxes<Real>& axes, Real mu) const
     {
-        return fits ? fits->mu_ms(mu, axes.alpha()) : axes.later(mu_ms, mu);
+        return LossTables::later_cosine(mu_ms, axes, mu);
     }
     /// spread, forward and tilt.
     template <class Real>

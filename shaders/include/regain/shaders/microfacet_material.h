@@ -201,23 +201,32 @@ public:
                                                    walk->eval_samples, _interface_tables, _tables));
             if (walk)
                 return visit(DielectricWalk(d, eta, reflected, transmitted, walk->eval_samples));
-            const Dielectric lobe(d, eta, i->mode, reflected, transmitted, i->shadowing,
+            const auto lobe = [&] {
+                return Dielectric(d, eta, i->mode, reflected, transmitted, i->shadowing,
                                   _interface_tables);
+            };
             if (std::holds_alternative<KullaContyForm>(method))
-                return visit(kulla_conty(lobe, _interface_tables, strength));
+                return visit(kulla_conty(lobe(), _interface_tables, strength));
             if (std::holds_alternative<Tail>(method))
-                return visit(fitted_tail(lobe, _interface_tables, strength));
-            return visit(compensated(lobe, gain_method(), _interface_tables, _tables, strength));
+                return visit(fitted_tail(lobe(), _interface_tables, strength));
+            return visit(
+                build_compensated(lobe, gain_method(), _interface_tables, _tables, strength));
         }
         if (const auto* c = std::get_if<ConductorSurface>(&surface))
             return with_reflection(
-                MicrofacetReflection(d, ConductorFresnel<Real>(Color(c->n), Color(c->k)), _tables),
+                [&] {
+                    return MicrofacetReflection(d, ConductorFresnel<Real>(Color(c->n), Color(c->k)),
+                                                _tables);
+                },
                 strength, visit);
         const auto& s = *std::get_if<SchlickSurface>(&surface);
         return with_reflection(
-            MicrofacetReflection(
-                d, SchlickFresnel<Real>(Color(s.F0), Color(s.F82), Color(s.F90), Real(s.exponent)),
-                _tables),
+            [&] {
+                return MicrofacetReflection(
+                    d,
+                    SchlickFresnel<Real>(Color(s.F0), Color(s.F82), Color(s.F90), Real(s.exponent)),
+                    _tables);
+            },
             strength, visit);
     }
 
@@ -233,25 +242,30 @@ public:
     }
 
 private:
-    template <class Lobe, class Real, class Visit>
-    decltype(auto) with_reflection(const Lobe& lobe, Real strength, const Visit& visit) const
+    // make() is the lobe, which has the tables.
+    template <class MakeLobe, class Real, class Visit>
+    decltype(auto) with_reflection(const MakeLobe& make, Real strength, const Visit& visit) const
     {
         if (std::holds_alternative<Directional>(method))
-            return visit(directional(lobe, _tables, strength));
+            return visit(build_directional(make, _tables, strength));
         if (std::holds_alternative<Balanced>(method))
-            return visit(balanced(lobe, _tables, strength));
+            return visit(build_balanced(make, _tables, strength));
         if (const auto* form = std::get_if<KullaContyForm>(&method))
-            return visit(kulla_conty(lobe, *form, _tables, strength));
+            return visit(kulla_conty(make(), *form, _tables, strength));
         if (std::holds_alternative<Tail>(method))
-            return visit(fitted_tail(lobe, _tables, strength));
+            return visit(fitted_tail(make(), _tables, strength));
         const auto* walk = random_walk(strength);
-        if (walk && walk->bounded)
-            return visit(
-                BoundedWalk(lobe.distribution(), lobe.fresnel(), walk->eval_samples, _tables));
         if (walk)
+        {
+            const auto lobe = make();
+            if (walk->bounded)
+                return visit(
+                    BoundedWalk(lobe.distribution(), lobe.fresnel(), walk->eval_samples, _tables));
             return visit(Walk(lobe.distribution(), lobe.fresnel(), walk->eval_samples, _tables));
-        if (std::holds_alternative<BurleySheen>(method)) return visit(burley_sheen(lobe, strength));
-        return visit(compensated(lobe, gain_method(), _tables, strength));
+        }
+        if (std::holds_alternative<BurleySheen>(method))
+            return visit(burley_sheen(make(), strength));
+        return visit(build_compensated(make, gain_method(), _tables, strength));
     }
 
     // A lobe cannot be replaced by a part.

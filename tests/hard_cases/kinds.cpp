@@ -50,8 +50,8 @@ std::vector<Kind<Real>> all_kinds()
 {
     std::vector<Kind<Real>> all;
     add_ggx(all);
+#ifndef REGAIN_HARD_CASES_OF_GGX
     add_beckmann(all);
-#ifndef REGAIN_HARD_CASES_WITHOUT_TAILS
     add_gtr(all);
     add_std(all);
 #endif

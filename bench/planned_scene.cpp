@@ -9,7 +9,8 @@
 //
 // COSTS.json is what `regain cost --planner-data` writes; `-`, the default, what is compiled in.
 // Without more, a tolerance of 0.01 and 1024 samples a pixel, which takes some minutes. Exit code 1
-// where the 99th percentile of the error is beyond the tolerance.
+// where under even light the 99th percentile of the error is beyond the tolerance, or in the studio
+// its mean.
 //
 // Everything is rendered twice, by other random numbers: of the differences d1 and d2 of one tile
 // in both, the product is on average the square of what they have in common, the error, whatever
@@ -40,7 +41,8 @@ namespace {
 using namespace regain;
 using namespace regain::tools;
 
-constexpr int width = 640, height = 160, block = 8;
+// The frame of `regain render` for five materials, at half its size.
+constexpr int width = 600, height = 240, block = 8;
 
 struct Shown
 {
@@ -243,7 +245,9 @@ try
             "{:.3f}\n",
             furnace ? "under even light" : "in the studio", block, block, f.error, f.percentile,
             f.noise, f.time, f.reference_time);
-        within = within && f.percentile <= tolerance;
+        // Under even light what is seen is the albedo, which is what was promised; lamps show the
+        // shape of lobes, too.
+        within = within && (furnace ? f.percentile : f.error) <= tolerance;
     }
     return within ? 0 : 1;
 }

@@ -12,6 +12,7 @@
 #include <unistd.h>
 #include <pugixml.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <map>
@@ -136,6 +137,24 @@ TEST_F(CostCommand, tables_and_page_agree)
     EXPECT_EQ(page.select_nodes("//svg").size(), 2u);
     for (const char* file : {"cost/pareto-metal-ggx.svg", "cost/pareto-glass-inside-ggx.svg"})
         EXPECT_TRUE(pugi::xml_document().load_file((folder / file).c_str())) << file;
+    // So it does in the page for those who read documentation, and what is on the front is in its
+    // table.
+    const std::string fronts = read("cost/cost-fronts.md");
+    for (const json& front : all["fronts"])
+    {
+        EXPECT_TRUE(says(fronts, "\n" + front["sentence"].get<std::string>() + "\n"));
+        for (const json& point : front["points"])
+        {
+            const auto& on = front["front"];
+            if (std::find(on.begin(), on.end(), point["method"]) == on.end()) continue;
+            const double error = point["error"];
+            EXPECT_TRUE(says(
+                fronts, fmt::format("`{}` {}{:.2g} / {:.2f}", point["method"].get<std::string>(),
+                                    error > front["floor"] ? "" : "< ", error,
+                                    point["time"].get<double>())))
+                << point;
+        }
+    }
     // Nothing is outside of it.
     EXPECT_TRUE(page.select_nodes("//script | //link | //a | //iframe | //object").empty());
     for (const auto& image : page.select_nodes("//img"))
@@ -298,6 +317,22 @@ TEST_F(CostCommand, interrupted_it_leaves_no_file)
     EXPECT_EQ(interrupted(), 130);
     EXPECT_TRUE(std::filesystem::is_empty(folder / "cost"));
     EXPECT_FALSE(std::filesystem::exists(folder / "plan"));
+}
+
+TEST(Fronts, of_the_readme_are_those_of_the_page)
+{
+    const auto text_of = [](const std::string& file) {
+        std::ostringstream text;
+        text << std::ifstream(file).rdbuf();
+        return text.str();
+    };
+    const std::string page = text_of(REGAIN_DOCS "/cost-fronts.md"), heading = "\n## ggx\n\n";
+    const auto from = page.find(heading) + heading.size(), to = page.find("\n\n", from);
+    ASSERT_TRUE(from < to && to != page.npos);
+    const std::string table = page.substr(from, to - from);
+    // A row for each class.
+    EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 6);
+    EXPECT_TRUE(says(text_of(REGAIN_DOCS "/../README.md"), table));
 }
 
 TEST(ParetoFront, is_what_nothing_else_betters)

@@ -174,6 +174,9 @@ private:
         const NamedOffer& chosen = r.offers()[i];
         MicrofacetMaterial m = std::get<MicrofacetMaterial>(tree().material_of(lobe.node));
         m.method = chosen.method;
+        // Of widths that vary, those that the tree has only say whether there may be two, for which
+        // there are tables of their own.
+        if (!r.called_for().anisotropy) m.alpha_x = m.alpha_y;
         auto* interface = std::get_if<InterfaceSurface>(&m.surface);
         if (interface && interface->mode == ScatterMode::RT &&
             interface->shadowing != TransmissionShadowing::beta)

@@ -250,6 +250,14 @@ TEST(Plans, numbers_that_vary_are_planned_over_their_range)
     EXPECT_NEAR(*planned(varying(0.95), 0.02).lobes[0].error, planned(metal(0.99), 0.02).error,
                 3e-4);
 
+    // Widths that are the same wherever they vary need no tables of two, whatever a document that
+    // may have two of them begins with.
+    VaryingTree two = varying(0.95);
+    MicrofacetMaterial m = metal(0.05);
+    m.alpha_y = 0.06;
+    two.tree.set_material(two.tree.root(), m);
+    EXPECT_EQ(planned(two, 0.02).tables.size(), planned(varying(0.95), 0.02).tables.size());
+
     // A weight that is 0 nowhere is not left out; one that is 0 everywhere is.
     for (const float most : {0.0f, 1.0f})
     {

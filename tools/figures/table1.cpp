@@ -359,7 +359,8 @@ Figure make_table1(const Request& request)
     const MicrofacetTables tables = luts::ggx_tables();
     std::vector<Row> rows;
     const auto add = [&](const std::string& name, const std::string& form, const auto& make) {
-        const auto size = bytes_of(shaders::tables_read(*shaders::compensation_named(name), tables));
+        const auto size =
+            bytes_of(shaders::tables_read(*shaders::compensation_named(name), tables));
         rows.push_back(measured_row(name, form, make, request, truth, inputs, size));
     };
     for (const Method method : all_methods)

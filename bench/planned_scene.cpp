@@ -147,6 +147,14 @@ private:
     preview::Film _film;
 };
 
+double number(const char* text)
+{
+    char* end = nullptr;
+    const double x = std::strtod(text, &end);
+    if (end == text || *end != 0) throw BadInput(fmt::format("tolerance {}: takes 0 to 1", text));
+    return x;
+}
+
 double quantile(std::vector<double> all, double q)
 {
     const auto at = all.begin() + static_cast<std::ptrdiff_t>(q * double(all.size() - 1));
@@ -226,7 +234,7 @@ try
     const std::string file = argc > 1 && std::string(argv[1]) != "-" ? argv[1] : "";
     const auto costs = method_costs(file);
     if (costs.empty()) throw BadInput("no costs are compiled in; name a file of them");
-    const double tolerance = argc > 2 ? std::strtod(argv[2], nullptr) : 0.01;
+    const double tolerance = argc > 2 ? number(argv[2]) : 0.01;
     check_tolerance(tolerance);
     const int samples = argc > 3 ? std::atoi(argv[3]) : 1024;
     if (samples < 1) throw BadInput(fmt::format("{} samples: takes 1 and more", argv[3]));

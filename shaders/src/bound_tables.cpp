@@ -106,7 +106,13 @@ void add_bound_tables(const MicrofacetMaterial& m, bool for_albedo, std::vector<
     const MicrofacetTables& bound = m.tables();
     MicrofacetTables read = tables_read(m.method, bound);
     // Those of ggx come all together, whatever is used.
-    if (for_albedo) static_cast<AlbedoTables&>(read) = bound;
+    if (for_albedo)
+    {
+        static_cast<AlbedoTables&>(read) = bound;
+        // A walk says what a method with tables would.
+        if (std::holds_alternative<RandomWalk>(m.method))
+            read.E_avg = bound.E_avg, read.q_ms = bound.q_ms, read.mu_ms = bound.mu_ms;
+    }
     collect(read);
     collect(m.interface_tables());
 }

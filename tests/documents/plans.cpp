@@ -314,6 +314,25 @@ TEST(Plans, tiles_are_kept_where_they_pay)
     EXPECT_EQ(planned(varying(0.95), 0).tiles.across, 0);
 }
 
+TEST(Plans, tiles_that_are_none_are_refused)
+{
+    VaryingTree surface = varying(0.95);
+    const ClosureTree one = surface.tree;
+    ClosureTree two = one;
+    two.set_root(two.add(two.root(), two.lobe(metal(1))));
+    EXPECT_THROW(surface.set_tiles(0, {}, {one}), std::invalid_argument);
+    EXPECT_THROW(surface.set_tiles(2, {0, 0, 0}, {one}), std::invalid_argument);
+    EXPECT_THROW(surface.set_tiles(1, {1}, {one}), std::invalid_argument);
+    EXPECT_THROW(surface.set_tiles(1, {0}, {two}), std::invalid_argument);
+    EXPECT_TRUE(surface.trees_of_tiles().empty());
+    surface.set_tiles(1, {0}, {one});
+    EXPECT_EQ(surface.trees_of_tiles().size(), 1u);
+    // No number is 0.
+    V4f values[VaryingTree::most_values];
+    surface.values_at({{std::nanf(""), std::nanf("")}}, values);
+    EXPECT_NEAR(std::get<MicrofacetMaterial>(surface.material(0, values)).alpha_x, 0.05, 1e-6);
+}
+
 TEST(Plans, the_error_of_tiles_is_that_of_their_widths)
 {
     // Every tile keeps what was promised, also between the places that were looked at.

@@ -60,7 +60,7 @@ public:
 
     /// Cuts the unit square of texture coordinates into across x across tiles: where
     /// floor(across u) + across floor(across v) is i, closures are those of trees[tree_of[i]], and
-    /// beyond the square those of `tree`. The trees differ from it in methods of compensation and
+    /// beyond the square those of `tree`; a coordinate that is no number counts as 0. The trees differ from it in methods of compensation and
     /// tables alone. Throws std::invalid_argument where a tile has no tree or a tree not its
     /// closures, std::length_error beyond most_values.
     REGAIN_SHADERS_API void set_tiles(int across, std::vector<std::uint8_t> tree_of,
